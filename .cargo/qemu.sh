@@ -12,7 +12,8 @@ done
 # QEMU reads two commas as one.
 fault=${TRIGGER_FAULT:-}
 qemu-system-arm -M mps2-an386 -nographic -monitor none -serial null -icount shift=5,sleep=off \
-    -semihosting-config "enable=on,target=native,arg=TRIGGER_FAULT=${fault//,/,,}" -kernel "$1" </dev/null | defmt-print -e "$1"
+    -semihosting-config "enable=on,target=native,arg=TRIGGER_FAULT=${fault//,/,,}" -kernel "$1" </dev/null |
+    defmt-print -e "$1"
 codes=("${PIPESTATUS[@]}")
 [ "${codes[0]}" -ne 0 ] && exit "${codes[0]}"
 exit "${codes[1]}"

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Looks after the links of what is packed: README.md and the documents beside it, docs/.
 
-    .ci/links.py              each relative link must lead to a file of this repository, and its #part to a heading
-    .ci/links.py --set URL    the repository is at URL: Cargo.toml says so, and links to what is not packed become absolute
+    .ci/links.py              each relative link must lead to a file of this repository, its #part to a heading
+    .ci/links.py --set URL    the repository is at URL: Cargo.toml says so, and links to what is not packed become
+                              absolute
 
-A package holds its documents, but none of the other packages: from there, links to boards, benches or examples have no base
-until there is a repository. Once Cargo.toml names one, a relative link to what is not packed is an error.
+A package holds its documents, but none of the other packages: from there, links to boards, benches or examples have
+no base until there is a repository. Once Cargo.toml names one, a relative link to what is not packed is an error.
 """
 
 import re

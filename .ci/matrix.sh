@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs a command as thumb.sh does, with the targets on which the same answers are looked for, what links and what costs are.
+# Runs a command as thumb.sh does, with the targets on which answers, links and costs are looked for.
 #
 #   cd benches/cortex-m && ../../.ci/matrix.sh some cargo run --release -- --answers
 #

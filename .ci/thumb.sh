@@ -56,7 +56,8 @@ unpack() {
     for deb in "$work"/debs/*.deb; do
         # Of the compiler's source only the library is needed, a tenth of the files.
         dpkg --fsys-tarfile "$deb" |
-            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' --exclude './usr/src/*/compiler' ||
+            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' \
+                --exclude './usr/src/*/compiler' ||
             fail "cannot unpack $deb; missing $hint"
     done
     mv "$work/root" "$folder"
@@ -92,7 +93,8 @@ set_up_rustc() {
         std=$(depends libstd-rust-web-dev 'libstd-rust-web-[0-9.]*' "$hint")
         llvm=$(depends "$std" 'libllvm[0-9]*' "$hint")
         rm -rf "$compiler"
-        unpack compiler "$hint" "150 MB to fetch, 1.1 GB unpacked, a minute or two" rustc-web rust-web-clippy libstd-rust-web-dev "$std" "$llvm" rust-web-src
+        unpack compiler "$hint" "150 MB to fetch, 1.1 GB unpacked, a minute or two" \
+            rustc-web rust-web-clippy libstd-rust-web-dev "$std" "$llvm" rust-web-src
         wrap "$compiler/bin/rustc" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/rustc"
         wrap "$compiler/bin/cargo-clippy" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/cargo-clippy"
     fi
@@ -124,8 +126,9 @@ set_up_rustc() {
         printf '[profile.release]\ncodegen-units=1\npanic="abort"\n'
     } >"$work/Cargo.toml"
     # What the compiler calls to copy memory is in no other library of such a program.
-    (cd "$work" && RUSTC=$compiler/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target RUSTFLAGS="-C embed-bitcode=yes" \
-        cargo build --quiet --release -Zbuild-std=core -Zbuild-std-features=compiler-builtins-mem "${missing[@]/#/--target=}") >&2 ||
+    (cd "$work" && RUSTC=$compiler/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target \
+        RUSTFLAGS="-C embed-bitcode=yes" cargo build --quiet --release -Zbuild-std=core \
+        -Zbuild-std-features=compiler-builtins-mem "${missing[@]/#/--target=}") >&2 ||
         fail "cannot compile core for ${missing[*]} with Debian's rustc-web"
     for target in "${missing[@]}"; do
         mkdir -p "$work/lib"
@@ -153,7 +156,8 @@ for target in "${targets[@]}"; do
 done
 
 if ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; then
-    unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" "some 20 MB to fetch, 80 MB unpacked, some seconds" qemu-system-arm
+    unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" \
+        "some 20 MB to fetch, 80 MB unpacked, some seconds" qemu-system-arm
     wrap "$bin/qemu-system-arm" "$cache/qemu/usr/lib/$(uname -m)-linux-gnu:$cache/qemu/lib/$(uname -m)-linux-gnu" \
         "$cache/qemu/usr/bin/qemu-system-arm" -L "$cache/qemu/usr/share/qemu"
 fi
@@ -164,9 +168,11 @@ for target in "${targets[@]}"; do
     thumb* | wasm*) continue ;;
     esac
     if ! command -v qemu-riscv32 >/dev/null && [ ! -x "$bin/qemu-riscv32" ]; then
-        unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" "13 MB to fetch, 100 MB unpacked, some seconds" qemu-user
+        unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" \
+            "13 MB to fetch, 100 MB unpacked, some seconds" qemu-user
         for emulator in i386 ppc riscv32 riscv64 s390x; do
-            wrap "$bin/qemu-$emulator" "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
+            wrap "$bin/qemu-$emulator" \
+                "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
                 "$cache/qemu-user/usr/bin/qemu-$emulator"
         done
     fi
@@ -189,7 +195,8 @@ fi
 if [ "${TOOLS-log}" ] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
     say "building defmt-print, which prints the log: a minute ..."
     # Not optimised: it has little to decode, and is sooner built.
-    RUSTC=$HOST_RUSTC CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" defmt-print --version '^1' >&2 ||
+    RUSTC=$HOST_RUSTC CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" \
+        defmt-print --version '^1' >&2 ||
         fail "missing defmt-print: cargo install --locked defmt-print"
 fi
 

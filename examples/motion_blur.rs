@@ -10,9 +10,9 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::ExitCode;
 
-use shutter_curve::{CubicBezier, ShutterCurve, valid};
+use shutter_curve::{CubicBezier, ShutterCurve, expect_valid};
 
-static SHUTTER: ShutterCurve = valid(ShutterCurve::new(
+static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::new(
     CubicBezier::new([(0.0, 0.0), (0.2, 0.0), (0.3, 1.0), (0.5, 1.0)]),
     CubicBezier::new([(0.5, 1.0), (0.7, 1.0), (0.8, 0.0), (1.0, 0.0)]),
 ));
@@ -52,8 +52,8 @@ fn draw(svg: &mut String, row: usize, name: &str, light: impl Fn(usize) -> f32) 
 
 fn main() -> ExitCode {
     let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"220\" font-family=\"sans-serif\" font-size=\"14\" \
-         shape-rendering=\"crispEdges\">\n<rect width=\"660\" height=\"220\" fill=\"white\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"220\" font-family=\"sans-serif\" \
+         font-size=\"14\" shape-rendering=\"crispEdges\">\n<rect width=\"660\" height=\"220\" fill=\"white\"/>\n",
     );
     draw(&mut svg, 0, "exact", exact);
     let name = format!("{SAMPLES} samples a pixel, at inverse_cdf");

@@ -2,10 +2,10 @@
 //!
 //! `cargo run --example trapezoid`
 
-use shutter_curve::{ScheduleError, ShutterCurve, valid};
+use shutter_curve::{ScheduleError, ShutterCurve, expect_valid};
 
 /// In seconds: starts to open, is open, starts to close, is closed. A `static` is built by the compiler.
-static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 /// The timer counts microseconds, and the lamp needs 0.5 ms between two flashes.
 const TICK_HZ: u32 = 1_000_000;
 const MIN_GAP: u32 = 500;
@@ -22,7 +22,7 @@ fn main() -> Result<(), ScheduleError> {
         last = tick;
     }
     // More would come closer than the lamp allows: this says how many do not, and a schedule refuses them.
-    let most = SHUTTER.most_triggers(64, TICK_HZ, MIN_GAP)?;
+    let most = SHUTTER.max_triggers(64, TICK_HZ, MIN_GAP)?;
     println!("\nof 64 flashes at most {most} keep the gap");
     if let Err(error) = SHUTTER.ticks_into(&mut [0; 64], TICK_HZ, MIN_GAP) {
         println!("a schedule of 64 is refused: {error}");

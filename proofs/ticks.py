@@ -7,7 +7,7 @@ from common import *
 
 pinned("""
 fraction.rs of_parts 36f90104
-trigger/ticks.rs fraction 2c774e95 around 8259bfdd Ticks::new 8cd913e9 exponent_of_ticks 1d19fb19 TickScale::new 92811d40 TickScale::tick 5ab2dabf
+trigger/ticks.rs fraction 2c774e95 around 8259bfdd Ticks::new 51d9ac88 exponent_of_ticks 1d19fb19 TickScale::new 92811d40 TickScale::tick 5ab2dabf
 trigger/pulse.rs at e0b4f7ee
 number/moment.rs in_units 65d70f00
 number/units.rs fixed_down 12e34aed time_exponent 96eb982d

@@ -2,14 +2,14 @@
 
 use core::fmt;
 
-/// The part of a curve that an error is about.
+/// A part of a curve, in an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Part {
     /// The ramp from `open_start` to `open_end`.
     Opening,
-    /// Fully open, from `open_end` to `close_start`.
+    /// The fully open part from `open_end` to `close_start`.
     Plateau,
     /// The ramp from `close_start` to `close_end`.
     Closing,
@@ -25,15 +25,15 @@ impl fmt::Display for Part {
     }
 }
 
-/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and where,
-/// if that is known. A `point` is the index of a control point, 0 to 3.
+/// Why a curve is refused: the [rule](crate::ShutterCurve#rules) that it breaks. A `point` is the index of a control
+/// point, from 0 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum CurveError {
-    /// A control point of the ramp is NaN or infinite. A number above 3.4e38 becomes infinite in `f32`.
+    /// A control point of this ramp is NaN or infinite. Numbers above 3.4e38 are infinite in `f32`.
     NotFinite(Part),
-    /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`.
+    /// `open_start <= open_end <= close_start <= close_end` is false.
     TimesOutOfOrder,
     /// The time of an inner control point is not between the ramp's ends.
     TimeOutsideRamp {
@@ -42,15 +42,15 @@ pub enum CurveError {
         /// The control point: 1 or 2.
         point: u8,
     },
-    /// The same for [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the
-    /// whole interval: perhaps they were given as fractions of the ramp, or as times.
+    /// An inner time of [`shutteropening`](crate::ShutterCurve::shutteropening) is not on its ramp. Inner times are
+    /// fractions of the whole interval, not of the ramp.
     FractionOutsideRamp {
         /// The ramp.
         part: Part,
         /// The control point: 1 or 2.
         point: u8,
     },
-    /// The first inner control point is later than the second by more than 15/16 of the ramp.
+    /// The first inner control point is later than the second by more than 15/16 of this ramp's length.
     TimesCross(Part),
     /// The openness of a control point is not in [0, 1].
     OpennessOutOfRange {
@@ -59,18 +59,19 @@ pub enum CurveError {
         /// The control point.
         point: u8,
     },
-    /// A [`density`](crate::ShutterCurve::density) is not in [0, 1] at a control point. If it is greater, [scale it
-    /// down](crate::CubicBezier::scaled).
+    /// A control point of a [`density`](crate::ShutterCurve::density) is outside [0, 1]. If it exceeds 1,
+    /// [scale](crate::CubicBezier::scaled) it down.
     DensityOutOfRange,
-    /// The opening ramp does not end at openness 1, or the closing ramp does not begin there.
+    /// The opening ramp does not end, or the closing ramp does not start, at openness 1.
     NotFullyOpen(Part),
-    /// The interval is below 2⁻¹⁶ of the greatest |time|: at most 256 different `f32` times lie in it.
+    /// The interval is shorter than 2⁻¹⁶ of the larger of `|open_start|` and `|close_end|`: it contains too few `f32`
+    /// times.
     IntervalUnresolved,
-    /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
+    /// The interval is shorter than 2⁻⁶⁴ or longer than 2⁶⁴.
     IntervalOutOfRange,
-    /// The exposure of a [`density`](crate::ShutterCurve::density) is below 2⁻²⁰ of its interval, or 0.
+    /// The exposure of a [`density`](crate::ShutterCurve::density) is less than 2⁻²⁰ of its interval.
     DensityTooSmall,
-    /// A ramp or the plateau is shorter than 2⁻²⁴ of the greatest |time|, but not 0.
+    /// This part is shorter than 2⁻²⁴ of the larger of `|open_start|` and `|close_end|`, but its length is not 0.
     TooShort(Part),
 }
 
@@ -109,7 +110,7 @@ macro_rules! of_point {
 }
 
 impl CurveError {
-    /// The fixed text that [`Display`](fmt::Display) prints.
+    /// The text that [`Display`](fmt::Display) prints.
     pub const fn message(&self) -> &'static str {
         use CurveError as E;
         match *self {
@@ -165,58 +166,75 @@ impl fmt::Display for CurveError {
 
 impl core::error::Error for CurveError {}
 
-/// Why triggers cannot be scheduled.
+/// Why a frame is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ScheduleError {
-    /// The timer's rate is 0.
+    /// `timer_hz` is 0.
     TickRateZero,
-    /// The interval is longer than 2³¹ ticks at this rate.
+    /// The curve has more than 2³¹ ticks at this rate.
     TickRateTooHigh {
-        /// The greatest rate that fits; 0 if none does.
-        most: u32,
+        /// The highest rate that is accepted, or 0 if there is none.
+        max: u32,
     },
-    /// More triggers or pulses than a frame can have.
+    /// A frame cannot have so many triggers or pulses.
     TooManyTriggers {
-        /// The most that it can have: 2²².
-        most: u32,
+        /// The maximum, 2²².
+        max: u32,
     },
-    /// More triggers than the `Vec` can hold.
+    /// The `Vec` cannot hold so many triggers.
     CapacityExceeded {
-        /// How many it can hold.
+        /// The number that it can hold.
         capacity: u32,
     },
-    /// Two triggers would come closer than the minimum gap.
-    /// [`most_triggers`](crate::ShutterCurve::most_triggers) finds how many keep it.
+    /// The gap between two triggers is below the minimum. [`max_triggers`](crate::ShutterCurve::max_triggers) finds how
+    /// many triggers keep the minimum.
     GapTooSmall {
-        /// The index of the first trigger that comes too soon.
+        /// The index of the trigger after the first such gap.
         trigger: u32,
-        /// The ticks since the trigger before it.
+        /// The gap in ticks.
         gap: u32,
-        /// The ticks that are required.
+        /// The minimum in ticks.
         min_gap: u32,
     },
-    /// Two pulses would come closer than the minimum gap.
+    /// The gap between two pulses is below the minimum.
     PulsesTooClose {
-        /// The index of the first pulse that comes too soon.
+        /// The index of the pulse after the first such gap.
         pulse: u32,
-        /// The ticks from the end of the pulse before it to its start.
+        /// The gap in ticks.
         gap: u32,
-        /// The ticks that are required.
+        /// The minimum in ticks.
         min_gap: u32,
     },
-    /// The duty is 0 or less, above 1, or NaN.
+    /// The duty is NaN, 0 or less, or above 1.
     DutyOutOfRange,
-    /// A pulse would be shorter than asked for.
+    /// A pulse is shorter than the minimum.
     PulseTooShort {
         /// The index of the first such pulse.
         pulse: u32,
-        /// The ticks that it lasts.
+        /// Its length in ticks.
         length: u32,
-        /// The ticks that are required.
+        /// The minimum in ticks.
         min_pulse: u32,
     },
+}
+
+impl ScheduleError {
+    /// The reason without its numbers, for a panic in a constant.
+    pub const fn message(&self) -> &'static str {
+        match self {
+            Self::TickRateZero => "the tick rate is 0",
+            Self::TickRateTooHigh { max: 0 } => "the interval is longer than 2^31 ticks, whatever the rate",
+            Self::TickRateTooHigh { .. } => "the interval is longer than 2^31 ticks",
+            Self::TooManyTriggers { .. } => "more triggers or pulses than a frame can have",
+            Self::CapacityExceeded { .. } => "more triggers than the `Vec` can hold",
+            Self::GapTooSmall { .. } => "a gap between triggers is below the minimum",
+            Self::PulsesTooClose { .. } => "a gap between pulses is below the minimum",
+            Self::DutyOutOfRange => "the duty must be above 0 and at most 1",
+            Self::PulseTooShort { .. } => "a pulse is shorter than the minimum",
+        }
+    }
 }
 
 const fn plural(n: u32) -> &'static str {
@@ -225,33 +243,27 @@ const fn plural(n: u32) -> &'static str {
 
 impl fmt::Display for ScheduleError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TickRateZero => out.write_str("the tick rate is 0"),
-            Self::TickRateTooHigh { most: 0 } => {
-                out.write_str("the interval is longer than 2^31 ticks, whatever the rate")
-            }
-            Self::TickRateTooHigh { most } => {
-                write!(out, "the interval is longer than 2^31 ticks; up to {most} Hz it is not")
-            }
-            Self::TooManyTriggers { most } => {
-                write!(out, "more triggers or pulses than the {most} that a frame can have")
+        match *self {
+            Self::TickRateTooHigh { max } if max > 0 => write!(out, "{}; up to {max} Hz it is not", self.message()),
+            Self::TooManyTriggers { max } => {
+                write!(out, "more triggers or pulses than the {max} that a frame can have")
             }
             Self::CapacityExceeded { capacity } => {
-                write!(out, "more triggers than the {capacity} that the schedule can hold")
+                write!(out, "more triggers than the {capacity} that the `Vec` can hold")
             }
             Self::GapTooSmall { trigger, gap, min_gap } => {
-                let s = plural(*gap);
+                let s = plural(gap);
                 write!(out, "the gap before trigger {trigger} is {gap} tick{s}; the minimum is {min_gap}")
             }
             Self::PulsesTooClose { pulse, gap, min_gap } => {
-                let s = plural(*gap);
+                let s = plural(gap);
                 write!(out, "the gap before pulse {pulse} is {gap} tick{s}; the minimum is {min_gap}")
             }
-            Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),
             Self::PulseTooShort { pulse, length, min_pulse } => {
-                let s = plural(*length);
+                let s = plural(length);
                 write!(out, "pulse {pulse} lasts {length} tick{s}; the minimum is {min_pulse}")
             }
+            _ => out.write_str(self.message()),
         }
     }
 }

@@ -1,84 +1,97 @@
-//! Computes when a camera's shutter has collected a given fraction of its exposure, so that firmware can fire one
-//! flash per equal share of it. In `f32`, without `std`, allocation or dependencies.
-//!
-//! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. The crate treats its
-//! openness over time as a probability density, and inverts the integral.
+//! Splits a camera shutter's exposure into equal shares, and computes the time at which to fire a flash for each.
+//! While the camera's own shutter stays open, equal flashes at these times render a moving subject as the modelled
+//! shutter would.
 //!
 //! ```
-//! use shutter_curve::{ShutterCurve, valid};
+//! use shutter_curve::{ShutterCurve, expect_valid};
 //!
-//! // In seconds: starts to open, is fully open, starts to close, is closed.
-//! static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+//! // The times, in seconds, at which the shutter starts to open, is fully open, starts to close, and is closed.
+//! static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 //!
-//! // Half of the light is collected by 0.005 s.
+//! // Half of the light is in after 5 ms.
 //! assert_eq!(SHUTTER.inverse_cdf(0.5), 0.005);
-//! // Five triggers of a 1 MHz timer, at least 1000 ticks apart.
+//! // Five flashes in ticks of a 1 MHz timer, at least 1000 ticks apart.
 //! assert_eq!(SHUTTER.ticks(1_000_000, 1_000), Ok([1936, 3500, 5000, 6500, 8064]));
 //! ```
 //!
+//! # Terms
+//!
+//! - *Openness* is the part of the light that a shutter lets through at a moment, from 0 to 1.
+//! - A *curve* is openness over time: an opening *ramp*, a fully open *plateau* and a closing ramp. Each ramp is a
+//!   cubic Bezier.
+//! - The *exposure* is the area under the curve. `u` is a fraction of it, from 0 to 1.
+//! - A *trigger* is the time at which a flash fires. A *pulse* is the time for which a steady lamp is on.
+//! - A *frame* is all triggers, or all pulses, of one exposure.
+//! - A *tick* is one count of your timer.
+//! - An *ulp* is the distance from an `f32` to the next.
+//! - *Typical curves* are boxes, trapezoids, leaf and rotary shutters, and random curves with gentle ramps.
+//! - A *search* finds a time by iteration. Each curve stores polynomials that give most times without a search.
+//!
 //! # Units
 //!
-//! Times are in seconds and rates in Hz. If a curve's times are in another unit, so are all answers, and rates are
-//! ticks per that unit.
+//! Times are in seconds and rates in Hz. You can use another unit of time in the constructor. All times are then in
+//! this unit, and rates are in ticks per unit.
 //!
 //! # Which call
 //!
-//! A *frame* is the triggers, or the pulses, of one exposure. A *tick* is one count of your timer.
-//!
 //! | you want | call |
 //! |---|---|
-//! | a shutter from two [`CubicBezier`]s, from straight ramps, in RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
-//! | a constant curve; a fault in it stops the build | [`valid`] |
-//! | a smaller curve: fewer stored polynomials, more searches; or a larger one | [`with_octaves`] |
-//! | one Bezier alone as a density | [`density`]; if it rises above 1, scale it first with [`scaled`] |
+//! | a shutter from [`CubicBezier`]s, straight ramps, or RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
+//! | a curve in a constant | [`expect_valid`] |
+//! | a smaller curve, or fewer searches | [`with_octaves`] |
+//! | a probability density from one Bezier | [`density`] |
 //! | the time of a fraction | [`inverse_cdf`] |
-//! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
-//! | the ticks of a frame, every gap checked: in a constant, or at run time | [`ticks`], [`ticks_into`] |
-//! | one tick after the other, as in an interrupt handler | [`trigger_ticks`] |
-//! | how many triggers fit with a minimum gap; how many need no search | [`most_triggers`], [`direct_triggers`] |
-//! | pulses of equal doses through a shutter in the light's path | [`pulse_ticks`], [`pulses`], [`pulses_into`] |
+//! | the fraction, the openness or the probability density at a time | [`cdf`], [`openness`], [`pdf`] |
+//! | the ticks of a frame with checked gaps, as an array or in a slice | [`ticks`], [`ticks_into`] |
+//! | the ticks of a frame one by one, as in an interrupt handler | [`trigger_ticks`] |
+//! | how many triggers keep a minimum gap | [`max_triggers`] |
+//! | how many triggers need no search | [`direct_triggers`] |
+//! | pulses that send equal light through the shutter | [`pulses`], [`pulses_into`], [`pulse_ticks`] |
 //!
 //! # From a measured shutter
 //!
-//! You rarely know a shutter's control points, but you can record its light with a photodiode. The program in the
-//! crate's repository fits the trace, and writes a module for the firmware: the ticks of a frame, the delay from the
-//! camera's sync, and the curve as a `static`. You tell it what no trace shows: how shutter and lamp are set up, which
-//! edge of the sync counts, and the timer's rate.
+//! The program `shutter`, in the crate's repository, fits a curve to a photodiode's record of a shutter. It writes a
+//! module for firmware with the ticks of a frame and their delay from the camera's sync. With `--curve` the module also
+//! holds the curve as a `static`, and needs this crate. You supply three facts that the record does not show: the
+//! set-up, the sync's edge and the timer's rate. The set-up is `in_path` if light passes through the measured shutter,
+//! and `emulated` if the camera's own shutter stays open.
 //!
 //! ```text
 //! shutter fit trace.csv --sync 0 --out leaf.toml
 //! shutter plan leaf.toml --set-up emulated --sync-falls true --timer-hz 1MHz --emit rust --curve --to leaf.rs
 //! ```
 //!
-//! In the firmware, add `mod leaf;` and fire whenever the timer reaches one of the counts in `leaf::due(edge)`, where
-//! `edge` is the timer's count at the sync.
+//! Add `mod leaf;` to the firmware, and pass `leaf::due` your timer's count at the sync's edge. It returns the counts
+//! at which to fire.
 //!
 //! # Accuracy
 //!
-//! On every accepted curve the *backward error* is at most 0.5 ulp: the answer is exact for a fraction within
-//! 0.5 ulp, but for its rounding to an `f32`. On typical curves the time is within 0.69 ulp of the exact one. Times and
-//! ticks never step back, and every machine with IEEE arithmetic gives the same bits. All of this holds unless a search
-//! ends at its limit of 74 evaluations, which no input is known to reach. The page [`accuracy`] has every promise and
-//! what backs it.
+//! On every curve, [`inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded to `f32`. On
+//! typical curves, the result is within 0.69 ulp of the exact time of `u`. Times and ticks never decrease as `u` grows.
+//! These promises assume that no search reaches its limit of 74 steps. No known input makes it do so. The page
+//! [`accuracy`] lists all promises and the evidence for them.
+//!
+//! Every machine with IEEE arithmetic gives the same bits.
 //!
 //! # Cost
 //!
-//! A `static` curve takes 1144 bytes of flash and no time at start-up. By a model of a Cortex-M4F, an [`inverse_cdf`]
-//! takes some 60 to 110 cycles on average, but a search 500 to 2200 (more on a [`density`] that is 0 at both ends).
-//! Up to [`direct_triggers`] triggers never need one. Building a curve at run time takes some 2.9 million cycles. The
-//! README compares other methods, and says when not to use this crate.
+//! A `static` curve takes 1144 bytes of flash and no start-up code. On a Cortex-M4F, [`inverse_cdf`] takes 60 to 110
+//! cycles on average, in a cycle model. A search takes 500 to 2200, or more on a [`density`] that is 0 at both ends. A
+//! frame of up to [`direct_triggers`] triggers needs no search. Building a curve at run time takes 2.9 million cycles.
 //!
 //! # Features and minimum Rust
 //!
-//! Off by default: `heapless-v0_9` for a frame in a `heapless::Vec`, `defmt` for `Format` of the public types. The
-//! crate needs Rust 1.88. A minor version may raise that, and change the last bits of answers within what is promised.
+//! Two features are off by default. `heapless-v0_9` adds `ticks_vec`, which returns a frame in a `heapless::Vec`.
+//! `defmt` implements `defmt::Format` for the public types.
+//!
+//! The crate needs Rust 1.88. A minor version may raise this. It may also change the last bits of results, within the
+//! promises.
 //!
 //! [`new`]: ShutterCurve::new
 //! [`linear`]: ShutterCurve::linear
 //! [`shutteropening`]: ShutterCurve::shutteropening
 //! [`with_octaves`]: ShutterCurve::with_octaves
 //! [`density`]: ShutterCurve::density
-//! [`scaled`]: CubicBezier::scaled
 //! [`inverse_cdf`]: ShutterCurve::inverse_cdf
 //! [`cdf`]: ShutterCurve::cdf
 //! [`openness`]: ShutterCurve::openness
@@ -86,7 +99,7 @@
 //! [`ticks`]: ShutterCurve::ticks
 //! [`ticks_into`]: ShutterCurve::ticks_into
 //! [`trigger_ticks`]: ShutterCurve::trigger_ticks
-//! [`most_triggers`]: ShutterCurve::most_triggers
+//! [`max_triggers`]: ShutterCurve::max_triggers
 //! [`direct_triggers`]: ShutterCurve::direct_triggers
 //! [`pulse_ticks`]: ShutterCurve::pulse_ticks
 //! [`pulses`]: ShutterCurve::pulses
@@ -134,7 +147,7 @@ pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
 #[cfg(feature = "measure")]
 pub use search::MAX_EVALUATIONS;
-pub use shutter::{ShutterCurve, valid};
+pub use shutter::{ShutterCurve, expect_valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
 pub use trigger::pulse::{Pulse, PulseLimits};
 

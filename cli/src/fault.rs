@@ -5,7 +5,6 @@ use std::fmt;
 use shutter_curve::{CurveError, ScheduleError};
 use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count, short};
-use strum::{EnumDiscriminants, VariantNames};
 use thiserror::Error;
 use toml::Spanned;
 
@@ -120,10 +119,14 @@ impl Pair {
 }
 
 /// What is wrong. A page has words of its own, by the codes.
-#[derive(Clone, Debug, EnumDiscriminants, Error, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
-#[strum_discriminants(derive(VariantNames), name(Code), allow(missing_docs))]
-#[strum_discriminants(doc = "What is wrong, without the values.", strum(serialize_all = "snake_case"))]
+#[cfg_attr(
+    feature = "codes",
+    derive(strum::EnumDiscriminants),
+    strum_discriminants(derive(strum::VariantNames), name(Code), allow(missing_docs)),
+    strum_discriminants(doc = "What is wrong, without the values.", strum(serialize_all = "snake_case"))
+)]
 pub enum What {
     /// What only a text can have wrong.
     #[error("{0}")]

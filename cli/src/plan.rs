@@ -315,7 +315,7 @@ impl Problem {
 /// What is wrong with a timer's rate, in Hz, as all curves are in seconds here.
 fn rate(error: ScheduleError) -> What {
     match error {
-        ScheduleError::TickRateTooHigh { most } if most > 0 => What::RateTooHigh { most },
+        ScheduleError::TickRateTooHigh { max } if max > 0 => What::RateTooHigh { most: max },
         _ => What::Schedule(error),
     }
 }

@@ -1,11 +1,12 @@
 //! The plan as text for a terminal: its facts, the drawing, the table.
 
 use std::fmt::{self, Display, Write};
+use std::io::stdout;
 use std::iter::once;
 
-use console::Term;
 use shutter_fit::report::hidden_rows;
 use shutter_fit::unit::{decimals, short};
+use terminal_size::terminal_size_of;
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
 use crate::facts;
@@ -23,7 +24,7 @@ const HEIGHT: u32 = 39;
 
 /// The columns of the terminal.
 pub fn width() -> u16 {
-    Term::stdout().size_checked().map_or(COLUMNS, |(_, columns)| columns.min(COLUMNS))
+    terminal_size_of(stdout()).map_or(COLUMNS, |(columns, _)| columns.0.min(COLUMNS))
 }
 
 /// The plan of the scene `name`, for a terminal of so many columns.

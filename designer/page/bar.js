@@ -7,26 +7,39 @@ import { go, tell } from './model.js';
 import { remedies, told } from './words.js';
 import { FIELDS, INNER } from './scene.js';
 
-const MORE = [...INNER, 'timer_bits', 'delay_spread', 'min_pulse', 'lamp_lag'];
 const isNewWrong = watch(), isNewBusy = watch();
+const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
+const showRead = () => $('trace').scrollIntoView({ block: 'center' });
+
+// What a person can do about it.
+function buttonsFor(wrong, note, pending) {
+  if (wrong?.isLink) return button('Go on without it', () => go(-1));
+  if (wrong) return helps(remedies(wrong));
+  if (!note) return [];
+  const close = button('Close', () => tell({ note: null }));
+  return [note.act ? button(...note.act) : [], pending ? button('Show how it is read', showRead) : [], close];
+}
 
 /** Draws it. */
 export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
   // While something is computed, a button that is pressed stays.
   if (isNewWrong(wrong, note, pending, view)) {
     const words = wrong ? told(wrong, scene) : note?.words ?? '';
-    const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
-    const buttons = wrong?.isLink ? button('Go on without it', () => go(-1)) : wrong ? helps(remedies(wrong))
-      : note ? [note.act ? button(...note.act) : [], pending ? button('Show how it is read', () => $('trace').scrollIntoView({ block: 'center' })) : [], button('Close', () => tell({ note: null }))] : [];
     $('problem').hidden = !words;
     $('problem').classList.toggle('wrong', Boolean(wrong || note?.isWrong));
-    render(html`<span>${words}</span><span class="buttons">${buttons}</span>`, $('problem'));
+    render(html`<span>${words}</span><span class="buttons">${buttonsFor(wrong, note, pending)}</span>`, $('problem'));
   }
   if (isNewBusy(busy, busy?.words, busy?.share)) {
     $('busy').hidden = !busy;
-    if (busy) write($('busy').firstElementChild, `${busy.words}${busy.share ? `: ${Math.round(100 * busy.share)} %` : ''} …`);
+    const share = busy?.share ? `: ${Math.round(100 * busy.share)} %` : '';
+    if (busy) write($('busy').firstElementChild, `${busy.words}${share} …`);
   }
   const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.inner ? INNER.slice(...wrong.inner) : [wrong.key];
-  if (at.some((id) => MORE.includes(id))) $('inner').open = true;
-  for (const id of FIELDS) for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) at.includes(id) ? $(id).setAttribute(name, value) : $(id).removeAttribute(name);
+  for (const id of FIELDS) {
+    const field = $(id), is = at.includes(id);
+    if (is && $('inner').contains(field)) $('inner').open = true;
+    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
+      is ? field.setAttribute(name, value) : field.removeAttribute(name);
+    }
+  }
 }

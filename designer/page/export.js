@@ -4,7 +4,7 @@ import { html, nothing, render } from './lit-html.js';
 import { $, arrowed, watch } from './dom.js';
 import { give } from './form.js';
 import { model } from './model.js';
-import { hash, toml } from './scene.js';
+import { hash, toml, warnings } from './scene.js';
 import { emitForm } from './studio.js';
 import { remedies, told } from './words.js';
 
@@ -25,7 +25,6 @@ export function startExport() {
   $('copy').onclick = () => whole((text) => copy(text, `Copied: ${FORMS.find(([name]) => name === chosen)[1]}`));
   $('save').onclick = () => whole((text, file) => save(new Blob([text], { type: 'text/plain' }), file));
   $('link').onclick = () => copyLink(model.now);
-  $('svg').onclick = async () => save(new Blob([await picture(model.now)], { type: 'image/svg+xml' }), `${plain(model.now.scene.name)}.svg`);
   $('forms').onkeydown = (event) => {
     const to = arrowed(event, FORMS.findIndex(([name]) => name === chosen), FORMS.length);
     if (to === undefined) return;
@@ -41,7 +40,12 @@ export function showExport() {
   drawExport(model);
 }
 
-const tabs = () => render(FORMS.map(([name, title]) => html`<button type="button" id="form-${name}" role="tab" aria-controls="code" aria-selected=${name === chosen} tabindex=${name === chosen ? 0 : -1} @click=${() => choose(name)}>${title}</button>`), $('forms'));
+function tabs() {
+  const tab = ([name, title]) => html`<button type="button" id="form-${name}" role="tab" aria-controls="code"
+    aria-selected=${name === chosen} tabindex=${name === chosen ? 0 : -1}
+    @click=${() => choose(name)}>${title}</button>`;
+  render(FORMS.map(tab), $('forms'));
+}
 
 function choose(name) {
   chosen = name;
@@ -52,12 +56,13 @@ function choose(name) {
 const isNewForm = watch();
 
 export function drawExport({ now: { scene }, view, wrong }) {
-  for (const id of ['link', 'svg']) $(id).disabled = !view || Boolean(wrong?.id || scene.untold);
+  $('link').disabled = !view || Boolean(wrong?.id || scene.untold);
   if (!isSeen) return offerCopy(Boolean(view && !wrong && !scene.untold));
   if (!isNewForm(scene, chosen, wrong)) return;
   say('');
   // A newer one may be under way, which then is what is shown and copied.
-  const of = (made = wrong ? Promise.resolve({ reason: told(wrong, scene), remedies: remedies(wrong) }) : written(scene, chosen));
+  const refused = () => Promise.resolve({ reason: told(wrong, scene), remedies: remedies(wrong) });
+  const of = (made = wrong ? refused() : written(scene, chosen));
   $('code').classList.add('waits');
   if (wrong) offerCopy(false);
   of.then((it) => of === made && showForm(it));
@@ -67,26 +72,29 @@ const offerCopy = (isOffered) => ['copy', 'save'].forEach((id) => ($(id).disable
 
 async function written(scene, form) {
   if (scene.untold) return { reason: scene.untold, remedies: [['Use the curve all the same', { untold: null }]] };
-  const lacks = lacking(scene);
-  if (form !== 'toml' && lacks.length) return { reason: `hardware needs what only you know: ${lacks.map(([what]) => what).join('; ')}`, remedies: lacks.flatMap(([, ...remedies]) => remedies) };
   if (form === 'toml') return { text: toml(scene), file: `${plain(scene.name)}.toml` };
+  const lacks = LACKS.filter(([, is]) => is(scene));
+  if (lacks.length) {
+    const reason = `hardware needs what only you know: ${lacks.map(([what]) => what).join('; ')}`;
+    return { reason, remedies: lacks.flatMap(([, , ...remedies]) => remedies) };
+  }
   const answer = await emitForm(scene, form);
   // Overtaken by a newer question: that one's text is it.
   if (!answer) return made;
   if (answer.Err) return { reason: answer.Err };
   // Every other form tells by itself what is doubtful.
-  const doubts = form === 'csv' ? scene.doubts.map(({ text }) => `# Warning: ${text.replace(/\s+/g, ' ')}\n`) : [];
-  return { ...answer.Ok, text: doubts.join('') + answer.Ok.text };
+  return { ...answer.Ok, text: (form === 'csv' ? warnings(scene) : '') + answer.Ok.text };
 }
 
-// What nobody has said yet, each with what would say it.
-function lacking({ set_up, timer_hz, delay, sync_falls }) {
-  const found = [];
-  if (set_up === null) found.push(['the set-up', ['The camera’s own shutter stays open: emulated', { set_up: 'emulated' }], ['This shutter dims the lamp: in the path', { set_up: 'in_path' }]]);
-  if (timer_hz === null) found.push(['the timer’s rate', ['Give the timer’s rate', 'timer_hz']]);
-  if (delay !== null && sync_falls === null) found.push(['which way the sync goes', ['The sync falls', { sync_falls: true }], ['The sync rises', { sync_falls: false }]]);
-  return found;
-}
+// What somebody has to say, when that is so, and what says it.
+const LACKS = [
+  ['the set-up', (scene) => scene.set_up === null,
+    ['The camera’s own shutter stays open: emulated', { set_up: 'emulated' }],
+    ['This shutter dims the lamp: in the path', { set_up: 'in_path' }]],
+  ['the timer’s rate', (scene) => scene.timer_hz === null, ['Give the timer’s rate', 'timer_hz']],
+  ['which way the sync goes', ({ delay, sync_falls }) => delay !== null && sync_falls === null,
+    ['The sync falls', { sync_falls: true }], ['The sync rises', { sync_falls: false }]],
+];
 
 function showForm({ text, reason, remedies = [] }) {
   offerCopy(Boolean(text));
@@ -96,11 +104,16 @@ function showForm({ text, reason, remedies = [] }) {
   // What is told of a plan in comments comes after what a firmware reads.
   const [head] = /^(?:(?:\/\/|#(?!\[)|\/?\*| \*).*\n|\n)*/.exec(text);
   const lines = head.trim().split('\n').length;
-  render(lines < 3 ? text : html`<details><summary>${lines} lines of comments, copied as well</summary>${head.trimEnd()}</details>${text.slice(head.length)}`, $('code'));
+  const summary = html`<summary>${lines} lines of comments, copied as well</summary>`;
+  const folded = html`<details>${summary}${head.trimEnd()}</details>`;
+  render(lines < 3 ? text : [folded, text.slice(head.length)], $('code'));
 }
 
-/** Remedies as buttons. */
-export const helps = (remedies) => remedies.map(([words, changes]) => html`<button type="button" @click=${() => (typeof changes === 'string' ? $(changes).focus() : give(changes))}>${words}</button>`);
+/** Remedies as buttons: they change the scene, or lead to a field. */
+export const helps = (remedies) => remedies.map(([words, to]) => {
+  const help = () => (typeof to === 'string' ? $(to).focus() : give(to));
+  return html`<button type="button" @click=${help}>${words}</button>`;
+});
 
 const say = (words) => [$('told'), $('speeds-told')].forEach((it) => it && (it.textContent = words));
 
@@ -116,7 +129,8 @@ async function copy(words, done) {
   }
 }
 
-export const copyLink = (now) => copy(location.origin + location.pathname + hash(now), now.speeds ? 'Copied: a link to this table' : 'Copied: a link to this curve');
+export const copyLink = (now) =>
+  copy(location.origin + location.pathname + hash(now), `Copied: a link to this ${now.speeds ? 'table' : 'curve'}`);
 
 function save(blob, name) {
   const link = document.createElement('a');
@@ -129,14 +143,3 @@ function save(blob, name) {
 
 // A scene's name as that of a file.
 const plain = (name) => name.replace(/[^\w-]+/g, '-') || 'shutter';
-
-// The graph as it is seen, but for the handles, and with what is doubtful: as text, since this page takes no styles but from its sheet.
-async function picture({ scene }) {
-  const sheet = await (await fetch(document.querySelector('link[rel=stylesheet]').href)).text();
-  const graph = $('graph').querySelector('svg').cloneNode(true);
-  for (const part of graph.querySelectorAll('.handle, .arms, .cross, .fired')) part.remove();
-  for (const part of [graph, ...graph.querySelectorAll('*')]) part.removeAttribute('aria-hidden');
-  graph.setAttribute('role', 'img');
-  graph.setAttribute('aria-label', [`Openness and exposure of the shutter ${scene.name} over time, with its flashes`, ...scene.doubts.map(({ text }) => `doubtful: ${text}`)].join('; '));
-  return new XMLSerializer().serializeToString(graph).replace('>', () => `><style>${sheet}:root { background: var(--card); }</style>`);
-}

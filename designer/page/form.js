@@ -3,11 +3,12 @@
 import { $, watch, write } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
-import { CHOICES, FIELDS, INNER, LAMP, SPANS, STOPS, TIMES, inUnit, innerOf, isCount, lampOf, perSecond, tidy, withInner, withTimes } from './scene.js';
+import {
+  CHOICES, FIELDS, INNER, KINDS, LAMP, STOPS, TIMES,
+  inUnit, innerOf, isCount, lampOf, perSecond, tidy, withInner, withTimes,
+} from './scene.js';
 import { readTrace } from './trace.js';
 import { label } from './words.js';
-
-const KINDS = { triggers: 'count', timer_hz: 'rate', timer_bits: 'count' };
 
 /** Begins. */
 export function startForm() {
@@ -16,7 +17,6 @@ export function startForm() {
   numbers.addEventListener('submit', (event) => event.preventDefault());
   numbers.addEventListener('focusout', () => {
     seal();
-    echo();
     // Once the focus is elsewhere.
     setTimeout(() => drawForm(model));
   });
@@ -26,8 +26,7 @@ export function startForm() {
 
 // The number in a field of the form; an error says why there is none.
 function readField(id, unit) {
-  const kind = TIMES.includes(id) || SPANS.includes(id) ? 'time' : KINDS[id];
-  const value = parse($(id).value, kind, unit);
+  const value = parse($(id).value, KINDS[id] ?? 'time', unit);
   if (!Number.isNaN(value)) return value;
   if ($(id).hasAttribute('data-optional')) return null;
   throw new Error(`${label(id)}: a number is required`);
@@ -42,77 +41,66 @@ function tells(id, value, unit) {
   }
 }
 
-// What is read is told beside the field where it is written otherwise.
-function echo(input, value) {
-  const small = $('echo');
-  const words = input && Number.isFinite(value) && String(value) !== input.value.trim() ? `= ${value}` : '';
-  small.textContent = words;
-  small.hidden = !words;
-  if (words) input.parentElement.append(small);
-}
-
 /** Changes the scene; of the numbers, `keys` are a person's from now on. */
-export function give(changes, keys = Object.keys(changes).map((key) => (LAMP.includes(key) ? 'lamp' : key)), key, scene = model.now.scene) {
-  change({ scene: { ...scene, ...changes, given: [...new Set([...scene.given, ...keys])] } }, { key });
+export function give(changes, keys = Object.keys(changes), key) {
+  const { scene } = model.now;
+  const given = keys.map((key) => (LAMP.includes(key) ? 'lamp' : key));
+  change({ scene: { ...scene, ...changes, given: [...new Set([...scene.given, ...given])] } }, { key });
 }
 
 // So many flashes. Those of a trace are its own: it is asked again.
 function setTriggers(n, key) {
-  const { scene, trace } = model.now;
+  const { scene: { measured }, trace } = model.now;
   // Another number of this trace's own may be under way.
-  if (trace && n === scene.measured?.length && model.busy?.file === trace.file) model.busy?.cancel();
-  if (!scene.measured || n === scene.measured.length) return give({ triggers: n }, ['triggers'], key);
-  if (!trace?.file) return refuse(`These are ${scene.measured.length} measured times: for another number, drop the trace again.`, 'triggers');
+  if (trace && n === measured?.length && model.busy?.file === trace.file) model.busy?.cancel();
+  if (!measured || n === measured.length) return give({ triggers: n }, ['triggers'], key);
+  if (!trace?.file) {
+    return refuse(`These are ${measured.length} measured times: for another number, drop the trace again.`, 'triggers');
+  }
   if (!isCount(n)) return refuse(`${label('triggers')}: a whole number from 1 to 10000 is required`, 'triggers');
   readTrace(trace.file, trace.asked, n);
 }
 
-// The scene with straight ramps, or again with those that it had before.
-function straight(scene, isStraight) {
-  const { inner, spare } = scene;
-  return isStraight ? { ...withInner(scene, null), spare: { ...spare, inner } } : withInner(scene, spare.inner ?? innerOf(scene));
-}
-
-// The scene with another lamp, whose numbers are those that it had before; `length` is that of its first pulses.
-function withLamp(scene, kind, length) {
-  const { pulse, duty, min_pulse } = scene;
-  const spare = { ...scene.spare, ...(pulse !== null && { pulse }), ...(duty !== null && { duty, min_pulse }) };
-  const next = { ...scene, spare, pulse: null, duty: null, min_pulse: null, fully_open: kind === 'full' || null };
-  if (kind === 'pulse') next.pulse = spare.pulse ?? length;
-  if (kind === 'duty') [next.duty, next.min_pulse] = [spare.duty ?? 0.3, spare.min_pulse ?? null];
+// The numbers of another lamp.
+function lamp(kind, { triggers, unit }) {
+  const next = { pulse: null, duty: null, min_pulse: null, fully_open: kind === 'full' || null };
+  const share = ((model.view?.exposure ?? 0) * perSecond(unit)) / triggers;
+  if (kind === 'pulse') next.pulse = tidy(share / 4, 2) || 1;
+  if (kind === 'duty') next.duty = 0.3;
   return next;
 }
 
-function onInput({ target }) {
-  const { id } = target;
+function onInput({ target: { id, value: text, checked } }) {
   const { scene } = model.now;
-  if (id === 'name') return give({ name: target.value.trim() || 'shutter' }, [id], id);
-  if (id === 'unit') return give(inUnit(scene, target.value), [id]);
-  if (id === 'straight') return give(straight(scene, target.checked), []);
-  if (id === 'lamp') return give(withLamp(scene, target.value, tidy(((model.view?.exposure ?? 0) * perSecond(scene.unit)) / scene.triggers / 4, 2) || 1), [id]);
-  if (CHOICES[id]) return give({ [id]: CHOICES[id].find((it) => String(it) === target.value) ?? null });
+  if (id === 'name') return give({ name: text.trim() || 'shutter' }, [id], id);
+  if (id === 'unit') return give(inUnit(scene, text), [id]);
+  if (id === 'straight') return give(withInner(scene, checked ? null : innerOf(scene)), []);
+  if (id === 'lamp') return give(lamp(text, scene));
+  if (CHOICES[id]) return give({ [id]: CHOICES[id].find((it) => String(it) === text) ?? null });
   if (!FIELDS.includes(id)) return;
   let value;
   try {
     value = readField(id, scene.unit);
   } catch (error) {
-    echo();
     return refuse(error.message, id);
   }
-  echo(target, value);
   const i = TIMES.indexOf(id), k = INNER.indexOf(id);
+  const { good } = model;
   if (id === 'triggers') setTriggers(value, id);
-  // A ramp keeps its shape when its time is typed, as when it is dragged.
-  else if (i >= 0) give(withTimes(model.good?.unit === scene.unit ? { ...scene, ...shapeOf(model.good) } : scene, scene.times.with(i, value)), [], id);
-  else if (k >= 0) give(withInner(scene, innerOf(scene).with(k, value)), [], id);
-  else give({ [id]: value }, undefined, id);
+  else if (i >= 0) {
+    // A ramp keeps its shape when its time is typed, as when it is dragged.
+    const from = good?.unit === scene.unit ? { ...scene, times: good.times, inner: good.inner } : scene;
+    give(withTimes(from, scene.times.with(i, value)), [], id);
+  } else if (k >= 0) give(withInner(scene, innerOf(scene).with(k, value)), [], id);
+  else give({ [id]: value }, [id], id);
 }
 
-const shapeOf = ({ times, inner, spare }) => ({ times, inner, spare });
-
-function valueOf(scene, id) {
+// What a field shows of a scene.
+function wordsOf(scene, id) {
   const i = TIMES.indexOf(id), k = INNER.indexOf(id);
-  return i >= 0 ? scene.times[i] : k >= 0 ? innerOf(scene)[k] : scene[id];
+  const value = i >= 0 ? scene.times[i] : k >= 0 ? innerOf(scene)[k] : scene[id];
+  const words = value === null ? '' : String(k >= 0 && Number.isFinite(value) ? tidy(value, 7) : value);
+  return { value, words };
 }
 
 // Writes the numbers; what is typed stays as it is.
@@ -120,17 +108,17 @@ const isNewField = watch();
 export function drawForm({ now: { scene }, wrong }) {
   if (!isNewField(scene, wrong, document.activeElement)) return;
   for (const id of FIELDS) {
-    const value = valueOf(scene, id);
-    const words = value === null ? '' : Number.isFinite(value) && INNER.includes(id) ? String(tidy(value, 7)) : String(value);
+    const { value, words } = wordsOf(scene, id);
     if (wrong?.id !== id && $(id).value !== words && !tells(id, value, scene.unit)) $(id).value = words;
   }
-  if (document.activeElement !== $('name') || ($('name').value.trim() || 'shutter') !== scene.name) $('name').value = scene.name;
+  const name = $('name');
+  if (document.activeElement !== name || (name.value.trim() || 'shutter') !== scene.name) name.value = scene.name;
   $('unit').value = scene.unit;
   for (const id of ['set_up', 'sync_falls']) $(id).value = String(scene[id] ?? '');
   $('straight').checked = !scene.inner;
-  const lamp = lampOf(scene);
-  $('lamp').value = lamp;
+  const kind = lampOf(scene);
+  $('lamp').value = kind;
   $('lamp').disabled = Boolean(scene.measured);
-  for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== lamp;
+  for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== kind;
   for (const small of document.querySelectorAll('small.unit')) write(small, scene.unit);
 }

@@ -15,9 +15,8 @@ function rounds(from, to, count) {
   const raw = (to - from) / count;
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].find((by) => by * power >= raw * 0.999) * power;
-  const numbers = [];
-  for (let i = Math.ceil(from / step - 1e-9); i * step <= to + 1e-9 * step && numbers.length < 50; i++) numbers.push(tidy(i * step));
-  return numbers;
+  const first = Math.ceil(from / step - 1e-9), last = Math.floor(to / step + 1e-9);
+  return Array.from({ length: Math.min(last - first + 1, 50) }, (_, i) => tidy((first + i) * step));
 }
 
 /** The openness of a view at a time in seconds, as the ramps have it: for pictures alone. */
@@ -25,7 +24,10 @@ export function openness({ times: [a, b, c, d], ramps }, t) {
   if (t <= a || t >= d) return 0;
   if (t >= b && t <= c) return 1;
   const ramp = ramps[t < b ? 0 : 1];
-  const at = (p, k) => (1 - p) ** 3 * ramp[0][k] + 3 * p * (1 - p) ** 2 * ramp[1][k] + 3 * p * p * (1 - p) * ramp[2][k] + p ** 3 * ramp[3][k];
+  const at = (p, k) => {
+    const q = 1 - p;
+    return q ** 3 * ramp[0][k] + 3 * p * q * q * ramp[1][k] + 3 * p * p * q * ramp[2][k] + p ** 3 * ramp[3][k];
+  };
   let [low, high] = [0, 1];
   for (let i = 0; i < 20; i++) {
     const p = 0.5 * (low + high);
@@ -35,10 +37,17 @@ export function openness({ times: [a, b, c, d], ramps }, t) {
   return at(low, 1);
 }
 
+/** The ramps of a view as a part of a path; `place` is where a point of them is. */
+export function outline({ ramps }, place) {
+  const [opening, closing] = ramps.map((ramp) => ramp.map(place));
+  return `L${opening[0]}C${opening.slice(1)}L${closing[0]}C${closing.slice(1)}`;
+}
+
 /** Times and the share of the light that has come by then: by the curve, or between the triggers that a trace tells. */
 export function collected({ scene, view }) {
   if (!scene.measured) return view.cdf;
-  return [[0, 0], ...view.marks.map(([t, , u]) => [t, u]), [Math.max(view.times[3], 1.02 * view.marks.at(-1)[0]), 1]];
+  const end = Math.max(view.times[3], 1.02 * view.marks.at(-1)[0]);
+  return [[0, 0], ...view.marks.map(([t, , u]) => [t, u]), [end, 1]];
 }
 
 /** The share in such a list at a time. */
@@ -68,7 +77,8 @@ export class Graph {
   constructor(box) {
     this.box = box;
     this.isNew = { all: watch(), cursor: watch(), trace: watch() };
-    const root = (this.root = svg('svg', { role: 'group', 'aria-label': 'Openness over time, with handles; below it the share of the exposure collected' }));
+    const label = 'Openness over time, with handles; below it the share of the exposure collected';
+    const root = (this.root = svg('svg', { role: 'group', 'aria-label': label }));
     const defs = svg('defs', {}, root);
     this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
     this.framed = svg('rect', {}, svg('clipPath', { id: 'plot' }, defs));
@@ -78,7 +88,8 @@ export class Graph {
     this.paths = {
       even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'),
       curve: layer('curve'), trace: layer('trace'), errors: layer('errors'), dots: layer('dots'),
-      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'), cross: layer('cross'), fired: layer('fired'), arms: layer('arms'),
+      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'),
+      cross: layer('cross'), arms: layer('arms'),
     };
     this.handles = new Handles(this);
     box.append(root);
@@ -91,7 +102,7 @@ export class Graph {
     const reads = (event) => this.dragged || this.pointAt(this.t(this.pointer(event)[0]));
     root.addEventListener('pointerdown', reads);
     root.addEventListener('pointermove', reads);
-    root.addEventListener('pointerleave', ({ pointerType }) => this.dragged || pointerType !== 'mouse' || this.pointAt());
+    root.addEventListener('pointerleave', ({ pointerType: by }) => this.dragged || by !== 'mouse' || this.pointAt());
   }
 
   pointer(event) {
@@ -106,7 +117,7 @@ export class Graph {
 
   /** The model's cursor at a time in the scene's unit; none without a time. */
   cursorAt(t) {
-    return { cursor: Number.isFinite(t) ? t / this.perUnit : null, isPlaying: false };
+    return { cursor: Number.isFinite(t) ? t / this.perUnit : null };
   }
 
   pointAt(t) {
@@ -114,44 +125,45 @@ export class Graph {
   }
 
   /** Draws the model; what has no curve of its own keeps the last one, which is marked. */
-  show({ now: { scene, trace }, last, cursor, isPlaying }) {
+  show({ now: { scene, trace }, last, cursor }) {
     if (!last) return;
     Object.assign(this, { scene, view: last });
     if (this.isNew.trace(trace)) this.fitted = trace?.fit && viewOf(trace.scene).Ok;
     if (this.isNew.all(scene, last, trace, this.dragged)) this.draw();
-    if (this.isNew.cursor(last, cursor, scene.unit, isPlaying, this.size)) this.point(cursor, isPlaying);
+    if (this.isNew.cursor(last, cursor, scene.unit, this.size)) this.point(cursor);
   }
 
-  // The time that is pointed at, in words; and while an exposure plays, the triggers that have just fired.
-  point(cursor, isPlaying) {
-    const per = this.perUnit;
-    const isRead = cursor !== null;
-    this.paths.cross.setAttribute('d', isRead ? `M${atMost(this.x(cursor * per))} ${TOP}V${this.cdfBottom}` : '');
-    const recent = isPlaying ? 0.02 * (this.view.times[3] - this.view.times[0]) : 0;
-    const fired = isPlaying ? this.view.marks.filter(([t]) => t <= cursor && t > cursor - recent) : [];
-    this.paths.fired.setAttribute('d', fired.map(([t, o]) => `M${atMost(this.x(t * per))} ${atMost(this.y(o))}h0`).join(''));
-    write($('readout'), isRead && !isPlaying ? this.words(cursor, per) : '');
+  // The time that is pointed at, in words.
+  point(cursor) {
+    const line = cursor === null ? '' : `M${atMost(this.x(cursor * this.perUnit))} ${TOP}V${this.cdfBottom}`;
+    this.paths.cross.setAttribute('d', line);
+    write($('readout'), cursor === null ? '' : this.words(cursor));
   }
 
-  words(s, per) {
-    const { view, scene } = this;
-    if (!view.marks.length) return '';
-    const u = shareAt(collected(this), s);
-    const [[first], [last]] = [view.marks[0], view.marks.at(-1)];
-    const isKnown = !scene.measured || (s >= first && s <= last);
-    const part = isKnown ? `${short(100 * u, 3)} %` : `${s < first ? 'under' : 'over'} ${short((s < first ? 50 : 100 * view.marks.length - 50) / view.marks.length, 3)} %`;
-    const places = Math.max(0, Math.ceil(-Math.log10(this.perPixel)));
-    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(Math.round(1e4 * openness(view, s)) / 100, 3)} % open`, `${part} collected`];
-    const near = view.marks.reduce((best, [t], i) => (Math.abs(t - s) < Math.abs((view.marks[best]?.[0] ?? Infinity) - s) ? i : best), 0);
-    if (view.plan.Ok && scene.timer_hz !== null) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
-    return parts.join(' · ');
+  words(s) {
+    const { view: { marks, plan }, view, scene } = this;
+    if (!marks.length) return '';
+    // Before the first and after the last measured flash nothing is known.
+    const [[[first]], [last]] = [marks, marks.at(-1)];
+    const beyond = !scene.measured ? '' : s < first ? 'under ' : s > last ? 'over ' : '';
+    const u = shareAt(collected(this), Math.min(Math.max(s, beyond ? first : s), beyond ? last : s));
+    const places = Math.min(9, Math.max(0, Math.ceil(-Math.log10(this.perPixel))));
+    const open = Math.round(1e4 * openness(view, s)) / 100;
+    const far = ([t]) => Math.abs(t - s);
+    const near = marks.reduce((best, mark, i) => (far(mark) < far(marks[best]) ? i : best), 0);
+    return [
+      `${(s * this.perUnit).toFixed(places)} ${scene.unit}`, `${short(open, 3)} % open`,
+      `${beyond}${short(100 * u, 3)} % collected`,
+      ...(plan.Ok && scene.timer_hz !== null ? [`flash ${near}: tick ${plan.Ok.ticks[near]}`] : []),
+    ].join(' · ');
   }
 
   fit() {
     const width = Math.max(220, Math.floor(this.room));
     const strip = this.samples ? RESIDUAL : 0;
     const height = Math.round(Math.min(440, Math.max(360, width * 0.5))) + strip;
-    Object.assign(this, { width: width - LEFT - RIGHT, height: Math.round((height - strip - TOP - BETWEEN - BOTTOM) * 0.62) });
+    this.width = width - LEFT - RIGHT;
+    this.height = Math.round((height - strip - TOP - BETWEEN - BOTTOM) * 0.62);
     this.bottom = TOP + this.height;
     this.cdfBottom = height - BOTTOM;
     this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN - strip;
@@ -169,10 +181,14 @@ export class Graph {
     if (this.dragged) this.range = [Math.min(range[0], this.range[0]), Math.max(range[1], this.range[1])];
     else this.range = range;
     // Places as they are now, which a drag keeps to while the range follows it.
-    const [{ bottom }, [start, end]] = [this, this.range], perPixel = (end - start) / this.width, perPixelY = (high - low) / this.height;
-    this.map = { perPixel, perPixelY, x: (t) => LEFT + (t - start) / perPixel, t: (x) => start + (x - LEFT) * perPixel, y: (o) => bottom - (o - low) / perPixelY, o: (y) => low + (bottom - y) * perPixelY };
+    const { bottom, range: [start, end] } = this;
+    const perPixel = (end - start) / this.width, perPixelY = (high - low) / this.height;
+    this.map = {
+      perPixel, perPixelY, x: (t) => LEFT + (t - start) / perPixel, t: (x) => start + (x - LEFT) * perPixel,
+      y: (o) => bottom - (o - low) / perPixelY, o: (y) => low + (bottom - y) * perPixelY,
+    };
     Object.assign(this, this.map, { low, high });
-    const size = `${width} ${height} ${this.range} ${this.low} ${this.high} ${this.scene.unit} ${this.samples && this.zoom()}`;
+    const size = String([width, height, this.range, low, high, this.scene.unit, this.samples && this.zoom()]);
     if (size === this.size) return;
     this.size = size;
     this.root.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -184,8 +200,8 @@ export class Graph {
   // The axes.
   frame(height) {
     this.grid.replaceChildren();
-    const line = (x1, y1, x2, y2, name) => svg('path', { d: `M${x1} ${y1}L${x2} ${y2}`, class: name ?? '' }, this.grid);
-    const text = (x, y, words, anchor) => (svg('text', { x, y, 'text-anchor': anchor }, this.grid).textContent = words);
+    const line = (x1, y1, x2, y2, name = '') => svg('path', { d: `M${x1} ${y1}L${x2} ${y2}`, class: name }, this.grid);
+    const text = (x, y, words, anchor) => svg('text', { x, y, 'text-anchor': anchor }, this.grid).append(words);
     const right = LEFT + this.width;
     for (const o of [0, 0.25, 0.5, 0.75, 1]) {
       line(LEFT, this.y(o), right, this.y(o), o === 0 || o === 1 ? 'bold' : '');
@@ -201,16 +217,18 @@ export class Graph {
       text(this.x(t), this.cdfBottom + 17, short(t, 6), 'middle');
     }
     text(LEFT, this.u(1) - 8, 'share of the exposure collected', 'start');
-    if (this.samples) text(LEFT, this.bottom + 14, `trace minus curve, ${short(this.zoom(), 2)} times as high`, 'start');
+    const left = `trace minus curve, ${this.samples && short(this.zoom(), 2)} times as high`;
+    if (this.samples) text(LEFT, this.bottom + 14, left, 'start');
     text(right, height - 8, `time (${this.scene.unit})`, 'end');
-    for (const [key, value] of Object.entries({ x: LEFT - 5, y: 0, width: this.width + 10, height })) this.framed.setAttribute(key, value);
+    const frame = { x: LEFT - 5, y: 0, width: this.width + 10, height };
+    for (const [key, value] of Object.entries(frame)) this.framed.setAttribute(key, value);
   }
 
   // The residual is drawn so many times as high as the trace. Edges within one sample would hide all else.
   zoom() {
     const sizes = this.samples.map(([, , r]) => Math.abs(r)).sort((a, b) => a - b);
     const most = 1.4 * Math.max(sizes[Math.floor(0.98 * (sizes.length - 1))], 1e-5);
-    return Number(((0.5 * (RESIDUAL - 20)) / most / (this.height / (this.high - this.low))).toPrecision(1));
+    return tidy((0.5 * (RESIDUAL - 20) * (this.high - this.low)) / (most * this.height), 1);
   }
 
   draw() {
@@ -226,21 +244,18 @@ export class Graph {
     const X = (seconds) => this.x(seconds * per);
     const [zero, bottom] = [f(this.y(0)), f(this.u(0))];
     const set = (path, d) => path.getAttribute('d') !== d && path.setAttribute('d', d);
-    const outline = ({ ramps }) => {
-      const [opening, closing] = ramps.map((ramp) => ramp.map(([t, y]) => `${f(X(t))} ${f(this.y(y))}`));
-      return `L${opening[0]}C${opening.slice(1)}L${closing[0]}C${closing.slice(1)}`;
-    };
+    const ramps = outline(view, ([t, y]) => `${f(X(t))} ${f(this.y(y))}`);
     // Where a trace tells the triggers, no curve does.
     paths.curve.classList.toggle('beside', Boolean(this.scene.measured));
-    const line = (view) => `M${LEFT} ${zero}H${f(X(view.times[0]))}${outline(view)}L${f(X(view.times[3]))} ${zero}H${LEFT + this.width}`;
     const [start, end] = [f(X(view.times[0])), f(X(view.times[3]))];
-    set(paths.curve, line(view));
-    this.clip.setAttribute('d', `M${start} ${zero}${outline(view)}L${end} ${zero}Z`);
+    set(paths.curve, `M${LEFT} ${zero}H${start}${ramps}L${end} ${zero}H${LEFT + this.width}`);
+    this.clip.setAttribute('d', `M${start} ${zero}${ramps}L${end} ${zero}Z`);
 
     const top = f(this.y(this.high));
     const shares = ['', ''];
     if (view.edges.length <= MOST_SHARES) {
-      for (let i = 1; i < view.edges.length; i++) shares[i % 2] += `M${f(X(view.edges[i - 1]))} ${top}V${zero}H${f(X(view.edges[i]))}V${top}Z`;
+      const edges = view.edges.map((t) => f(X(t)));
+      for (let i = 1; i < edges.length; i++) shares[i % 2] += `M${edges[i - 1]} ${top}V${zero}H${edges[i]}V${top}Z`;
     } else shares[0] = `M${start} ${top}V${zero}H${end}V${top}Z`;
     set(paths.even, shares[0]);
     set(paths.odd, shares[1]);
@@ -263,7 +278,8 @@ export class Graph {
     set(paths.cdfStems, stems[1]);
     set(paths.cdfDots, dots[1]);
     const come = collected(this).map(([t, u]) => `${f(X(t))} ${f(this.u(u))}`);
-    set(paths.cdf, this.scene.measured ? `M${come.slice(1, -1).join('L')}` : `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`);
+    const all = `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`;
+    set(paths.cdf, this.scene.measured ? `M${come.slice(1, -1).join('L')}` : all);
 
     const tick = (ticks) => f(X(view.times[0] + ticks / view.plan.Ok.timer_hz));
     const pulses = view.plan.Ok?.pulses ?? [];
@@ -274,13 +290,15 @@ export class Graph {
     const { samples } = this;
     const keys = { lamp: pulses.length, trace: samples, share: shares[1] };
     for (const [name, isThere] of Object.entries(keys)) document.querySelector(`.${name}-key`).hidden = !isThere;
-    const points = (y) => (samples ? 'M' + samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L') : '');
+    const points = (y) => samples ? `M${samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L')}` : '';
     set(paths.trace, points(([, o]) => this.y(o)));
     const scale = samples ? (this.zoom() * this.height) / (this.high - this.low) : 0;
     const half = 0.5 * (RESIDUAL - 20), middle = this.bottom + 20 + half;
-    set(paths.residual, samples ? `${points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half))}M${LEFT} ${middle}H${LEFT + this.width}` : '');
+    const missed = points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half));
+    set(paths.residual, missed && `${missed}M${LEFT} ${middle}H${LEFT + this.width}`);
     // Of another number of flashes the fit has not told the errors.
-    set(paths.errors, (isFitted && fit.triggers.length === this.scene.triggers ? fit.triggers : []).map(([t, error]) => {
+    const told = isFitted && fit.triggers.length === this.scene.triggers ? fit.triggers : [];
+    set(paths.errors, told.map(([t, error]) => {
       const y = f(this.y(openness(view, t)));
       return `M${f(X(t - error))} ${y}H${f(X(t + error))}m0 -5v10M${f(X(t - error))} ${Number(y) - 5}v10`;
     }).join(''));

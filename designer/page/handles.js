@@ -12,8 +12,9 @@ const CROSS = 15 / 16;
 
 /** Within so many pixels of a round place, a handle snaps to it; handles that are nearer than that are in one place. */
 const MAGNET = 8, SAME = 4;
-const NAMES = ['starts to open', 'is open', 'starts to close', 'is closed',
-  'opening ramp, first control point', 'opening ramp, second control point', 'closing ramp, first control point', 'closing ramp, second control point'];
+const POINTS = ['first', 'second'].map((point) => `${point} control point`);
+const NAMES = ['starts to open', 'is open', 'starts to close', 'is closed'];
+for (const ramp of ['opening', 'closing']) NAMES.push(...POINTS.map((point) => `${ramp} ramp, ${point}`));
 
 /** Where a handle is: [time in the scene's unit, openness]. */
 function placeOf(scene, i) {
@@ -29,7 +30,8 @@ function limits(scene, i) {
   const [from, to] = i < 6 ? times : times.slice(2);
   // Rounded, it still is within.
   const room = (CROSS - 1e-6) * (to - from);
-  return i % 2 ? [Math.max(from, placeOf(scene, i - 1)[0] - room), to] : [from, Math.min(to, placeOf(scene, i + 1)[0] + room)];
+  if (i % 2) return [Math.max(from, placeOf(scene, i - 1)[0] - room), to];
+  return [from, Math.min(to, placeOf(scene, i + 1)[0] + room)];
 }
 
 /** The scene with a handle as near to a place as its box lets it. */
@@ -57,7 +59,8 @@ export class Handles {
 
   make(name, i) {
     const isTime = i < 4;
-    const group = svg('g', { class: `handle ${isTime ? 'time' : 'control'}`, tabindex: 0, role: 'slider', id: `handle-${name}`, 'aria-label': NAMES[i] }, this.graph.root);
+    const is = { class: `handle ${isTime ? 'time' : 'control'}`, tabindex: 0, role: 'slider', 'aria-label': NAMES[i] };
+    const group = svg('g', { ...is, id: `handle-${name}` }, this.graph.root);
     svg('circle', { r: 22, class: 'reach' }, group);
     svg('circle', { r: 11, class: 'halo' }, group);
     if (isTime) svg('rect', { x: -6, y: -6, width: 12, height: 12, rx: 2.5 }, group);
@@ -72,7 +75,9 @@ export class Handles {
 
   key(event, i) {
     const { graph: { scene } } = this;
-    const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [10, 0], PageDown: [-10, 0] }[event.key];
+    const by = {
+      ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [10, 0], PageDown: [-10, 0],
+    }[event.key];
     const end = { Home: 0, End: 1 }[event.key];
     if ((!by && end === undefined) || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
@@ -87,7 +92,8 @@ export class Handles {
     else t = scene.times[0] + length * stepped(innerOf(scene)[INNER.indexOf(HANDLES[i])], by[0], step);
     const next = moved(scene, i, [t, y]);
     // A key that is held is one step.
-    change({ scene: next }, { key: event.repeat ? `held ${i}` : undefined, told: this.graph.cursorAt(placeOf(next, i)[0]) });
+    const told = this.graph.cursorAt(placeOf(next, i)[0]);
+    change({ scene: next }, { key: event.repeat ? `held ${i}` : undefined, told });
   }
 
   grab(event) {
@@ -161,7 +167,8 @@ export class Handles {
       return found ?? tidy(Math.round(value / round) * round, 9);
     };
     // Where the neighbours are, and 0 and 1.
-    const ends = i < 4 ? [times[i - 1], times[i + 1]].filter((t) => t !== undefined) : i < 6 ? times.slice(0, 2) : times.slice(2);
+    const beside = i < 4 ? [times[i - 1], times[i + 1]] : i < 6 ? times.slice(0, 2) : times.slice(2);
+    const ends = beside.filter((t) => t !== undefined);
     const t = near(map.t(x), map.perPixel, ends, 10 ** Math.floor(Math.log10(map.perPixel)) * 2);
     return [t, i < 4 ? placeOf({ times }, i)[1] : near(map.o(y), map.perPixelY, [0, 1], 0.01)];
   }
@@ -180,9 +187,7 @@ export class Handles {
       const set = (name, value) => group.getAttribute(name) !== value && group.setAttribute(name, value);
       set('transform', `translate(${at[i]})`);
       set('aria-valuetext', `${short(t)} ${scene.unit}${i < 4 ? '' : `, openness ${short(o)}`}`);
-      set('aria-valuenow', short(t));
-      set('aria-valuemin', short(least));
-      set('aria-valuemax', short(most));
+      for (const [name, x] of [['now', t], ['min', least], ['max', most]]) set(`aria-value${name}`, short(x));
     });
     const arms = [[0, 4], [1, 5], [2, 6], [3, 7]].filter((pair) => pair.every((i) => isDrawn[i]));
     graph.paths.arms.setAttribute('d', arms.map(([a, b]) => `M${at[a]}L${at[b]}`).join(''));

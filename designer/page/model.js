@@ -1,7 +1,5 @@
-// What is on the screen: one object, which changes here alone and is drawn by one function. And the steps that led there:
-// undone and redone by keys, by buttons, and by the browser's Back and Forward.
-//
-// The browser's entries are counted, no more: so many back is so many steps undone.
+// What is on the screen: one object, which changes here alone and is drawn by one function. And the steps that led
+// there: undone and redone by keys, by buttons, and by the browser's Back and Forward, whose entries are counted.
 
 import { fromAddress, hash } from './scene.js';
 import { viewOf } from './view.js';
@@ -15,10 +13,10 @@ export const model = {
   now: null,
   /** What the engine tells of the scene; null where it has no curve. And the last scene that had one, with its view. */
   view: null, last: null, good: null,
-  /** What is wrong: as the engine tells it, or a `reason` with `id` where a text is no number, with `isLink` where a link is none. */
+  /** What is wrong: as the engine tells it, or a `reason`, with `id` where a field's text, or `isLink`, is none. */
   wrong: null,
-  /** A time in seconds that is pointed at; is it that of an exposure that plays? */
-  cursor: null, isPlaying: false,
+  /** A time in seconds that is pointed at. */
+  cursor: null,
   /** What is being computed: { words, share, cancel }. What came of the last file: { words, isWrong, act }. */
   busy: null, note: null,
   /** A trace that was refused as it is read: { file, name, asked, measured, words, mend }. */
@@ -59,8 +57,8 @@ function set(next) {
 }
 
 /**
- * Goes on from what is on the screen. One with the `key` of the step before goes on with that step; a draft is none yet. What
- * is told beside it is no change of the scene, as a cursor.
+ * Goes on from what is on the screen. One with the `key` of the step before goes on with that step; a draft is none
+ * yet. What is told beside it is no change of the scene, as a cursor.
  */
 export function change(changes, { key, isDraft, told } = {}) {
   const stopped = 'trace' in changes ? overtake() : null;
@@ -176,8 +174,10 @@ function keep() {
   const few = steps.slice(Math.max(0, at - MOST_KEPT), at + MOST_KEPT);
   const traces = [...new Set(few.map(({ state }) => state.trace))];
   const states = few.map(({ state }) => ({ ...state, trace: traces.indexOf(state.trace) }));
+  const kept = { visit, entry, at: Math.min(at, MOST_KEPT), states };
+  kept.traces = traces.map((trace) => trace && { ...trace, file: null });
   try {
-    sessionStorage.setItem(KEPT, JSON.stringify({ visit, entry, at: Math.min(at, MOST_KEPT), traces: traces.map((trace) => trace && { ...trace, file: null }), states }));
+    sessionStorage.setItem(KEPT, JSON.stringify(kept));
   } catch {
     // Too much, or not allowed: the address has the scene.
   }
@@ -189,7 +189,8 @@ function recall() {
     if (history.state?.visit !== visit) return null;
     const steps = states.map((state) => ({ state: { ...state, trace: traces[state.trace] } }));
     const moved = Math.min(Math.max(at + history.state.entry - entry, 0), steps.length - 1);
-    return hash(steps[moved].state) === location.hash ? { visit, entry: history.state.entry, at: moved, steps } : null;
+    const isShown = hash(steps[moved].state) === location.hash;
+    return isShown ? { visit, entry: history.state.entry, at: moved, steps } : null;
   } catch {
     return null;
   }

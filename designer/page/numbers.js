@@ -1,14 +1,20 @@
-// Numbers as people write them: 1.5 and 1,5, 1/125, 2.5 ms, 1 MHz, but no separator of thousands, which in one country is the
-// other's decimal mark.
+// Numbers as people write them: 1.5 and 1,5, 1/125, 2.5 ms, 1 MHz, but no separator of thousands, which in one country
+// is the other's decimal mark.
 
 import { perSecond, tidy } from './scene.js';
 
-const RATES = { hz: 1, khz: 1e3, mhz: 1e6, ghz: 1e9 };
-const SPAN_UNITS = { s: 1, ms: 1e-3, us: 1e-6, ns: 1e-9 };
+const DIGITS = '([+-]?(?:\\d+[.,]?\\d*|[.,]\\d+)(?:e[+-]?\\d+)?)';
+const NUMBER = new RegExp(`^${DIGITS}(?:\\s*/\\s*${DIGITS})?\\s*([a-zµμ%]*)$`, 'i');
+// What a unit makes of a number, and the units that are told of.
+const SUFFIXES = {
+  time: [{ s: 1, ms: 1e-3, us: 1e-6, ns: 1e-9 }, 's, ms, µs or ns'],
+  rate: [{ hz: 1, khz: 1e3, mhz: 1e6, ghz: 1e9 }, 'Hz, kHz, MHz or GHz'],
+  part: [{ '%': 0.01 }, '%'],
+};
 
 /**
- * The number in `text`; NaN for no text. It is of a `kind`: a `time` in the scene's `unit`, a `rate` in Hz, a `count`, or a
- * `part` of one. An error says what to write instead, which is the same number with the same unit.
+ * The number in `text`; NaN for no text. It is of a `kind`: a `time` in the scene's `unit`, a `rate` in Hz, a `count`,
+ * or a `part` of one. An error says why there is none.
  */
 export function parse(text, kind = 'part', unit = 's') {
   const plain = text.trim().replace(/^[−–]/, '-');
@@ -16,51 +22,28 @@ export function parse(text, kind = 'part', unit = 's') {
   const refuse = (words) => {
     throw new Error(`“${text.trim()}” ${words}`);
   };
-  const [, digits, suffix] = /^(.*?\d[.,]?(?:e[+-]?\d+)?)\s*([a-zµμ%]*)$/i.exec(plain) ?? refuse('is no number');
-  const instead = (words) => `${words}${suffix && ` ${suffix}`}`;
-  const mixed = /^(-?)(\d+)\s+(\d+)\s*\/\s*([1-9]\d*)$/.exec(digits);
-  if (mixed) refuse(`is written otherwise here: write ${instead(mixed[1] + tidy(Number(mixed[2]) + mixed[3] / mixed[4], 7))}`);
-  const parts = digits.split('/').map((part) => part.trim());
-  if (parts.length > 2) refuse('is no number');
-  const told = parts.map((part) => withoutThousands(part, refuse));
-  if (String(told) !== String(parts)) refuse(`has a separator of thousands: write ${instead(told.join('/'))}`);
+  const found = NUMBER.exec(plain) ?? refuse('is no number: write it as 1500, 1.5, 1/125 or 2.5 ms');
+  const [, over, under, suffix] = found;
   // Whoever names a larger unit than Hz writes parts of it.
   const isWhole = kind === 'count' || (kind === 'rate' && /^(hz)?$/i.test(suffix));
-  const numbers = parts.map((part, i) => one(part, isWhole, (other) => instead(parts.with(i, other).join('/')), refuse));
-  const number = numbers.length === 2 ? numbers[0] / numbers[1] : numbers[0];
+  const [first, second] = [over, under].map((part) => {
+    if (/^[+-]?[1-9]\d{0,2},\d{3}$/.test(part) || (isWhole && /^[+-]?[1-9]\d{0,2}\.\d{3}$/.test(part))) {
+      const [small, large] = [Number(part.replace(',', '.')), part.replace(/[.,]/, '')];
+      refuse(`may mean ${small} or ${large}: write one of them`);
+    }
+    return part && Number(part.replace(',', '.'));
+  });
+  const number = under ? first / second : first;
   if (kind === 'count' && !Number.isInteger(number)) refuse('is no whole number');
-  const name = suffix.toLowerCase().replace(/[µμ]/, 'u');
   // A fraction without a unit is a speed, as a dial has it: of a second.
-  if (kind === 'time' && (name || parts.length === 2)) return tidy(number * (SPAN_UNITS[name || 's'] ?? refuse('has an unknown unit: s, ms, µs or ns')) * perSecond(unit));
-  if (kind === 'rate' && name) return tidy(number * (RATES[name] ?? refuse('has an unknown unit: Hz, kHz, MHz or GHz')));
-  if (kind === 'part' && name === '%') return tidy(number / 100);
-  if (name) refuse('is no number');
-  return parts.length === 2 ? tidy(number, 7) : number;
+  const name = suffix.toLowerCase().replace(/[µμ]/, 'u') || (kind === 'time' && under ? 's' : '');
+  if (!name) return under ? tidy(number, 7) : number;
+  const [factors, known] = SUFFIXES[kind] ?? refuse('is no number');
+  const factor = factors[name] ?? refuse(`has an unknown unit: ${known}`);
+  return tidy(number * factor * (kind === 'time' ? perSecond(unit) : 1));
 }
 
-// The same digits without what parts thousands.
-function withoutThousands(plain, refuse) {
-  const marks = plain.replace(/[^.,]/g, '');
-  if (!/\d[\s'’_]\d/.test(plain) && marks.length < 2) return plain;
-  // Groups of three but for the first: any other is no number that could be told.
-  const groups = /^[+-]?\d{1,3}(?:([\s'’_.,])\d{3})(?:\1\d{3})*(?:[.,]\d*)?$/.exec(plain);
-  if (!groups) refuse('is no number');
-  // The last mark is that of the decimals if it stands alone and parts no thousands.
-  const last = marks.at(-1);
-  const mark = last && last !== groups[1] ? plain.lastIndexOf(last) : plain.length;
-  return plain.slice(0, mark).replace(/[.,\s'’_]/g, '') + plain.slice(mark).replace(',', '.');
-}
-
-function one(plain, isWhole, instead, refuse) {
-  if (/^[+-]?[1-9]\d{0,2},\d{3}$/.test(plain) || (isWhole && /^[+-]?[1-9]\d{0,2}\.\d{3}$/.test(plain))) {
-    refuse(`may be ${instead(Number(plain.replace(',', '.')))} or ${instead(plain.replace(/[.,]/, ''))}: write one of them`);
-  }
-  const number = plain.replace(',', '.');
-  if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(number)) refuse('is no number');
-  return Number(number);
-}
-
-/** What a field of its own takes when it is changed: a number, or null for none. What is no such number is told at the field. */
+/** What a field of its own takes when it is changed: a number, or null for none. Other texts are told at the field. */
 export const taken = (kind, take, unit, isGood = () => true) => ({ target }) => {
   let told = '', x;
   try {

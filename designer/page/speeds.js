@@ -9,6 +9,8 @@ import { taken } from './numbers.js';
 import { short } from './scene.js';
 import { readTrace, rowFiles } from './trace.js';
 
+const COLUMNS = ['trace', 'measured', 'nearest full stop', 'on the dial', 'off by', 'spread', 'pulses', 'told by'];
+
 const isNewTable = watch();
 
 /** Draws it; while it is there, it is all there is, but for a trace that is refused. */
@@ -19,20 +21,27 @@ export function drawSpeeds({ now: { speeds }, pending }) {
   document.body.classList.toggle('alone', isShown);
   if (!isShown) return;
   const rows = speeds.toSorted((a, b) => (a.exposure || Infinity) - (b.exposure || Infinity));
+  const button = (id, words, act) => html`<button type="button" id="speeds-${id}" @click=${act}>${words}</button>`;
   render(html`<div class="head"><h2 id="speeds-title">Speeds of this shutter</h2><span class="buttons">
-      <button type="button" id="speeds-link" @click=${() => copyLink({ ...model.now, scene: model.good })}>Copy link</button><button type="button" id="speeds-print" @click=${() => print()}>Print</button><button type="button" id="speeds-close" @click=${() => change({ speeds: null })}>Close</button></span></div>
+      ${button('link', 'Copy link', () => copyLink({ ...model.now, scene: model.good }))}
+      ${button('print', 'Print', () => print())}${button('close', 'Close', () => change({ speeds: null }))}</span></div>
     <div class="scroll" tabindex="0" role="region" aria-label="Table of speeds" id="speeds-table"><table>
-      <thead><tr>${['trace', 'measured', 'nearest full stop', 'on the dial', 'off by', 'spread', 'pulses', 'told by'].map((name) => html`<th scope="col">${name}</th>`)}</tr></thead>
+      <thead><tr>${COLUMNS.map((name) => html`<th scope="col">${name}</th>`)}</tr></thead>
       <tbody>${rows.map((row) => line(row, speeds))}</tbody></table></div>
     <p id="speeds-told" role="status" class="note"></p>
-    <p class="note">Measured: how long a shutter that is fully open would take for as much light, ± one standard error. Nearest full stop: of 1/125, 1/60, 1/30 and so on; what the dial says is yours to tell. Spread: by how much the pulses of a trace differ.</p>`, $('speeds'));
+    <p class="note">Measured: how long a shutter that is fully open would take for as much light, ± one standard error.
+      Nearest full stop: of 1/125, 1/60, 1/30 and so on; what the dial says is yours to tell. Spread: by how much the
+      pulses of a trace differ.</p>`, $('speeds'));
 }
 
 function line(row, speeds) {
   const { name, kind, exposure, error, scatter, pulses, doubts } = row;
   const file = rowFiles.get(row);
-  const title = html`<th scope="row">${file ? html`<button type="button" class="plain" title="Show this trace" @click=${() => readTrace(file, {})}>${name}</button>` : name}</th>`;
-  if (!exposure) return html`<tr>${title}${Array.from({ length: 6 }, () => html`<td>–</td>`)}<td>${kind}</td></tr>`;
+  const show = () => readTrace(file, {});
+  const link = html`<button type="button" class="plain" title="Show this trace" @click=${show}>${name}</button>`;
+  const of = (cells) => html`<tr><th scope="row">${file ? link : name}</th>
+    ${cells.map((it) => html`<td>${it}</td>`)}</tr>`;
+  if (!exposure) return of([...Array(6).fill('–'), kind]);
   const speed = nearest(exposure);
   const [by, unit] = exposure < 1 ? [1000, 'ms'] : [1, 's'];
   // The last digit of each is of the same size.
@@ -42,7 +51,10 @@ function line(row, speeds) {
     if (file) rowFiles.set(told, file);
     change({ speeds: speeds.with(speeds.indexOf(row), told) });
   };
-  return html`<tr>${title}<td>${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}</td><td>${speed ? dial(speed) : '–'}</td>
-    <td><input aria-label="${name}: on the dial" placeholder="1/…" .value=${row.dial ? dial(row.dial) : ''} @change=${taken('time', says, 's', (x) => x > 0 && x < Infinity)}></td><td>${row.dial ? stops(exposure, row.dial) : '–'}</td>
-    <td>${pulses > 1 ? `${short(100 * scatter, 2)} %` : '–'}</td><td>${pulses}</td><td>${kind}</td></tr>`;
+  const asked = html`<input aria-label="${name}: on the dial" placeholder="1/…" .value=${row.dial ? dial(row.dial) : ''}
+    @change=${taken('time', says, 's', (x) => x > 0 && x < Infinity)}>`;
+  return of([
+    html`${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}`, speed ? dial(speed) : '–', asked,
+    row.dial ? stops(exposure, row.dial) : '–', pulses > 1 ? `${short(100 * scatter, 2)} %` : '–', pulses, kind,
+  ]);
 }

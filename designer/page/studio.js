@@ -24,13 +24,17 @@ class Asked {
   started() {
     const worker = new Worker(fileOf('worker.js'), { type: 'module' });
     const failed = (words) => this.end({ Err: `this could not be computed${words}` });
-    worker.onmessage = ({ data: { progress, failed: why, answer } }) =>
-      (progress !== undefined ? this.asked?.progress?.(progress) : why === undefined ? this.end(answer, true) : failed(` (${why})`));
+    worker.onmessage = ({ data: { progress, failed: why, answer } }) => {
+      if (progress !== undefined) this.asked?.progress?.(progress);
+      else if (why === undefined) this.end(answer, true);
+      else failed(` (${why})`);
+    };
     worker.onerror = () => failed('');
     return worker;
   }
 
-  /** Ends what is asked, with such an answer; nothing means that something newer came. What was not answered may have left anything behind: the next question gets a new worker. */
+  // Ends what is asked, with such an answer; nothing means that something newer came. What was not answered may have
+  // left anything behind: the next question gets a new worker.
   end(answer, isAnswered) {
     if (!this.asked) return;
     if (!isAnswered) {

@@ -3,7 +3,7 @@
 import { html, nothing, render } from './lit-html.js';
 import { $, watch } from './dom.js';
 import { doubt, rounding } from './facts.js';
-import { perSecond, short } from './scene.js';
+import { perSecond } from './scene.js';
 
 /** Longer tables lose their middle. */
 const MOST_ROWS = 300;
@@ -12,25 +12,33 @@ const isNewTicks = watch();
 // The rows as they are written.
 let tickRows = [];
 
-/** As the CSV has it, in the scene's unit. Of a draft, as while a handle is dragged, only the rows in sight are written. */
-export function drawTicks({ now: { scene }, view, isDraft }) {
+/** As the CSV has it, in the scene's unit. Of a draft, as while a handle is dragged, only rows in sight are written. */
+export function drawTicks({ now: { scene: { unit, timer_hz } }, view, isDraft }) {
   const plan = view?.plan.Ok;
-  if (!plan || !isNewTicks(view, scene.unit, isDraft)) return;
+  if (!plan || !isNewTicks(view, unit, isDraft)) return;
   const { pulses, delay, early, ticks } = plan, { marks } = view;
-  // Without a timer there are no ticks.
-  const isTimed = scene.timer_hz !== null;
-  const names = ['#', 'share', `time, ${scene.unit}`, ...(isTimed ? ['ticks', 'gap', ...(delay === null ? [] : ['from sync']), ...(pulses.length ? ['on', 'off'] : [])] : [])];
-  const n = marks.length, hidden = Math.max(0, n - MOST_ROWS), per = perSecond(scene.unit);
+  const n = marks.length, hidden = Math.max(0, n - MOST_ROWS), per = perSecond(unit);
   const box = $('ticks').parentElement, row = box.scrollHeight / (n - hidden + 1);
+  const places = Math.min(12, Math.max(0, 5 - Math.floor(Math.log10(Math.abs(marks.at(-1)[0] * per)))));
   const isInSight = (k) => !isDraft || (k > box.scrollTop / row - 2 && k < (box.scrollTop + box.clientHeight) / row);
+  // Without a timer there are no ticks.
+  const columns = [
+    ['#', (i) => i], ['share', (i) => marks[i][2].toFixed(5)],
+    [`time, ${unit}`, (i) => (marks[i][0] * per).toFixed(places)],
+    ...(timer_hz === null ? [] : [
+      ['ticks', (i) => ticks[i]], ['gap', (i) => (i ? ticks[i] - ticks[i - 1] : '–')],
+      ...(delay === null ? [] : [['from sync', (i) => delay + ticks[i]]]),
+      ...(pulses.length ? [['on', (i) => pulses[i][0] - early], ['off', (i) => pulses[i][1] - early]] : []),
+    ]),
+  ];
   const written = tickRows.length === n - hidden && tickRows;
   tickRows = Array.from({ length: n - hidden }, (_, k) => {
     if (written && !isInSight(k)) return written[k];
     const i = hidden && k >= MOST_ROWS / 2 ? k + hidden : k;
-    const [t, , u] = marks[i], tick = ticks[i];
-    const cells = [i, u.toFixed(5), short(t * per, 6), ...(isTimed ? [tick, i ? tick - ticks[i - 1] : '–', ...(delay === null ? [] : [delay + tick]), ...(pulses[i] ?? []).map((edge) => edge - early)] : [])];
-    return html`<tr>${cells.map((cell) => html`<td>${cell}</td>`)}</tr>`;
+    return html`<tr>${columns.map(([, of]) => html`<td>${of(i)}</td>`)}</tr>`;
   });
-  render(html`${hidden ? `without ${hidden} in the middle; the CSV has all` : n}${plan.coarse ? doubt(rounding(plan)) : nothing}`, $('ticks-note'));
-  render(html`<thead><tr>${names.map((name) => html`<th scope="col">${name}</th>`)}</tr></thead><tbody>${tickRows}</tbody>`, $('ticks'));
+  const heads = columns.map(([name]) => html`<th scope="col">${name}</th>`);
+  const many = hidden ? `without ${hidden} in the middle; the CSV has all` : n;
+  render([many, plan.coarse ? doubt(rounding(plan)) : nothing], $('ticks-note'));
+  render(html`<thead><tr>${heads}</tr></thead><tbody>${tickRows}</tbody>`, $('ticks'));
 }

@@ -6,6 +6,9 @@ import { CHOICES, INNER, NUMBERS, TIMES } from './scene.js';
 /** The address of a file beside this script. */
 export const fileOf = (name) => new URL(name, import.meta.url);
 
+/** A plan's numbers in the engine's order; null is none. */
+const PLAN = ['timer_hz', 'early', 'delay', 'most', 'closest', 'min_gap', 'half_open', 'drift', 'coarse'];
+
 let engine;
 let exports;
 
@@ -28,7 +31,8 @@ function numberOf(scene, key) {
 // What the engine answers about a scene; what fails may have left anything behind.
 function ask(scene, answer, failed) {
   try {
-    const question = [UNITS.indexOf(scene.unit), ...NUMBERS.map((key) => numberOf(scene, key)), ...(scene.measured ?? [])];
+    const numbers = NUMBERS.map((key) => numberOf(scene, key));
+    const question = [UNITS.indexOf(scene.unit), ...numbers, ...(scene.measured ?? [])];
     const to = exports.question(8 * question.length);
     const bytes = new DataView(exports.memory.buffer, to);
     question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
@@ -47,21 +51,24 @@ export const viewOf = (scene) => ask(scene, () => {
   const length = exports.view(), at = exports.answer();
   const numbers = new Float64Array(exports.memory.buffer.slice(at, at + length));
   const parts = [];
-  for (let i = 0; i < numbers.length; i += 1 + numbers[i]) parts.push(Array.from(numbers.subarray(i + 1, i + 1 + numbers[i])));
+  for (let i = 0; i < numbers.length; i += 1 + numbers[i]) parts.push([...numbers.subarray(i + 1, i + 1 + numbers[i])]);
   return shown(parts);
 }, ({ message }) => ({ Err: { reason: `this could not be computed (${message})` } }));
 
 // The engine's answer, whose parts are told in view.rs.
 function shown(parts) {
-  const tuples = (list, size) => Array.from({ length: list.length / size }, (_, i) => list.slice(size * i, size * (i + 1)));
+  const tuples = (list, n) => Array.from({ length: list.length / n }, (_, i) => list.slice(n * i, n * (i + 1)));
   const wrong = () => {
     const [[code, key, from, to, ...values], remedies] = parts.slice(-2);
-    return { Err: { code: CODES[code], key: KEYS[key], inner: from >= 0 ? [from, to] : null, values, remedies: tuples(remedies, 2) } };
+    const inner = from >= 0 ? [from, to] : null;
+    return { Err: { code: CODES[code], key: KEYS[key], inner, values, remedies: tuples(remedies, 2) } };
   };
   if (parts.length === 2) return wrong();
-  const [times, ramps, cdf, [exposure, efficiency], edges, marks, seconds, ticks, pulses, doses] = parts;
+  const [times, ramps, cdf, [exposure, efficiency], edges, marks, numbers, ticks, pulses, doses] = parts;
   const points = tuples(ramps, 2);
-  const [timer_hz, early, delay, most, closest, min_gap, half_open, drift, coarse] = seconds.map((x) => (Number.isNaN(x) ? null : x));
-  const plan = doses ? { Ok: { ticks, pulses: tuples(pulses, 2), doses, timer_hz, early, delay, most, closest, min_gap, half_open, drift, coarse } } : wrong();
-  return { Ok: { times, ramps: [points.slice(0, 4), points.slice(4)], cdf: tuples(cdf, 2), exposure, efficiency, edges, marks: tuples(marks, 3), plan } };
+  const both = [points.slice(0, 4), points.slice(4)];
+  const view = { times, exposure, efficiency, edges, ramps: both, cdf: tuples(cdf, 2) };
+  const named = () => PLAN.map((name, i) => [name, Number.isNaN(numbers[i]) ? null : numbers[i]]);
+  const plan = doses ? { Ok: { ticks, pulses: tuples(pulses, 2), doses, ...Object.fromEntries(named()) } } : wrong();
+  return { Ok: { ...view, marks: tuples(marks, 3), plan } };
 }

@@ -4,15 +4,23 @@ import { $ } from './dom.js';
 import { INNER, perSecond, short } from './scene.js';
 
 /** A field's name, as it stands on the page. */
-export const label = (id) => (id === 'fully_open' ? 'flashes while fully open' : $(id).labels[0].firstChild.data.trim().replace(/,$/, ''));
+export const label = (id) =>
+  id === 'fully_open' ? 'flashes while fully open' : $(id).labels[0].firstChild.data.trim().replace(/,$/, '');
 
-const many = (most) => (most ? `${most > 1 ? `up to ${most} flashes keep` : '1 flash keeps'} that` : 'no number of flashes keeps that');
-const pair = (things, of, [i, gap, least]) => `${things} ${i} and ${i + 1} ${gap < 0 ? `overlap by ${of(-gap)}` : `come ${of(gap)} apart`}, and ${of(least)} is required`;
+const many = (most) =>
+  !most ? 'no number of flashes keeps that' : most > 1 ? `up to ${most} flashes keep that` : '1 flash keeps that';
+const pair = (things, of, [i, gap, least]) =>
+  `${things} ${i} and ${i + 1} ${gap < 0 ? `overlap by ${of(-gap)}` : `come ${of(gap)} apart`}, `
+  + `and ${of(least)} is required`;
+const PATH = 'it is for a shutter in the light’s path, and the set-up is emulated; there, ';
 
 // Behind the name of the field that it is about; `of` tells a time.
 const OF_FIELD = {
   beyond: () => 'it is beyond f32 (3.4e38 s)',
-  lost: ([percent]) => `f32 is off by ${short(percent, 2)} % of the interval here; count the times from nearer to the start of opening`,
+  lost: ([percent]) => {
+    const off = `f32 is off by ${short(percent, 2)} % of the interval here`;
+    return `${off}; count the times from nearer to the start of opening`;
+  },
   finite: () => 'a finite number is required',
   positive: () => 'more than 0 is required',
   not_negative: () => '0 or more is required',
@@ -21,11 +29,14 @@ const OF_FIELD = {
   rate_too_high: ([most]) => `the interval is longer than 2^31 ticks; up to ${most} Hz it is not`,
   schedule: () => 'no timer counts so long an interval',
   bits: () => '16 or 32 is required',
-  wraps: ([bits, by, hz]) => `the frame lasts longer than ${bits} bits can count; a prescaler of ${by} fits: a timer of ${short(hz, 10)} Hz`,
+  wraps: ([bits, by, hz]) => {
+    const fits = `a prescaler of ${by} fits: a timer of ${short(hz, 10)} Hz`;
+    return `the frame lasts longer than ${bits} bits can count; ${fits}`;
+  },
   fully_open_pulses: () => 'they have a length of their own, and this lamp makes pulses',
   fully_open_never: () => 'this shutter begins to close as soon as it is open',
-  fully_open_emulated: () => 'they are for a shutter in the light’s path, and the set-up is emulated; there, flashes without a length serve',
-  duty_emulated: () => 'it is for a shutter in the light’s path, and the set-up is emulated; there, equal pulses serve',
+  fully_open_emulated: () => `${PATH}flashes without a length serve`,
+  duty_emulated: () => `${PATH}equal pulses serve`,
   duty_and_pulse: () => 'a lamp has this or a length, not both',
   duty: () => 'above 0 and at most 1 is required',
   pulse_of_no_tick: ([hz]) => `it is less than half a tick of ${hz} Hz`,
@@ -34,17 +45,27 @@ const OF_FIELD = {
   falls: () => 'it goes with a delay',
   delay: () => '0 or more is required; an edge cannot trigger what comes before it',
   delay_too_long: () => 'the frame ends more than 2^31 ticks after the edge',
-  lag: ([by, most], of, { delay }) => `the first flash would come ${of(by)} before ${delay === null ? 'the start of opening' : 'the edge of the sync'}; a lag of ${of(most)} is the most`,
-  times_in_path: () => 'what a shutter in the light’s path leaves of a flash comes from its curve, and no curve explains this trace',
+  lag: ([by, most], of, { delay }) => {
+    const from = delay === null ? 'the start of opening' : 'the edge of the sync';
+    return `the first flash would come ${of(by)} before ${from}; a lag of ${of(most)} is the most`;
+  },
+  times_in_path: () =>
+    'what a shutter in the light’s path leaves of a flash comes from its curve, and no curve explains this trace',
 };
 
 // Without a name before it.
 const OF_ALL = {
   close: ([most, ...two], of) => `${pair('flashes', of, two)}; ${many(most)}`,
   doses_close: ([most, ...two], of) => `${pair('pulses', of, two)}; ${many(most)}; a smaller lit share leaves more`,
-  dose_short: ([most, i, lasts, least], of) => `pulse ${i} lasts ${of(lasts)}, and ${of(least)} is required; ${many(most)}; a greater lit share lasts longer`,
-  pulses: ([most, length, longest, ...two], of) =>
-    `pulses of ${of(length)}: ${two.length ? pair('pulses', of, two) : 'they reach beyond the time that the shutter is open'}; ${longest > 0 ? `those of up to ${of(longest)} fit` : 'none is short enough'}${most ? `, or ${many(most)}` : ''}`,
+  dose_short: ([most, i, lasts, least], of) => {
+    const lasting = `pulse ${i} lasts ${of(lasts)}, and ${of(least)} is required`;
+    return `${lasting}; ${many(most)}; a greater lit share lasts longer`;
+  },
+  pulses: ([most, length, longest, ...two], of) => {
+    const reach = two.length ? pair('pulses', of, two) : 'they reach beyond the time that the shutter is open';
+    const fit = longest > 0 ? `those of up to ${of(longest)} fit` : 'none is short enough';
+    return `pulses of ${of(length)}: ${reach}; ${fit}${most ? `, or ${many(most)}` : ''}`;
+  },
   unfit: ([most]) => `the frame does not fit; ${many(most)}`,
   times_early: ([i]) => `flash ${i} comes before the shutter opens`,
   times_late: ([i]) => `flash ${i} comes more than 2^31 ticks after the start of opening: take a slower timer`,
@@ -55,9 +76,11 @@ const OF_ALL = {
 // A curve's errors, by their numbers; `ramp` and `point` are where it is.
 const OF_CURVE = [
   () => 'times out of order: to open, to be open, to close, to be closed is the order',
-  (x, ramp, point) => `${ramp}: the time of its ${point} inner point has to lie on the ramp, as a fraction of the whole interval: 0 at the start, 1 at the end; it is ${x}`,
+  (x, ramp, point) => `${ramp}: the time of its ${point} inner point has to lie on the ramp, as a fraction of the `
+    + `whole interval: 0 at the start, 1 at the end; it is ${x}`,
   (x, ramp, point) => `${ramp}: the openness of its ${point} inner point has to be in [0, 1]; it is ${x}`,
-  (_, ramp) => `${ramp}: its first inner point is later than its second by more than 15/16 of the ramp; move them closer`,
+  (_, ramp) => `${ramp}: its first inner point is later than its second by more than 15/16 of the ramp; move them `
+    + 'closer',
   (_, ramp) => `${ramp}: it is shorter than 2^-24 of the greatest time; make it longer, or give it no length`,
   () => 'the interval is too short for its distance from time 0: count times from a nearer origin',
   () => 'the interval is shorter than 2^-64 s or longer than 2^64 s',
@@ -83,5 +106,5 @@ const REMEDIES = [
   () => ['Use flashes without a length', { pulse: null, duty: null, min_pulse: null, fully_open: null }],
 ];
 
-/** What would help, as [words, changes of the scene]: the engine has tried each. Of what is half typed nothing is known. */
+/** What would help, as [words, changes of the scene]: the engine has tried each. */
 export const remedies = ({ remedies = [] }) => remedies.map(([i, n]) => REMEDIES[i](n));

@@ -8,9 +8,9 @@ use shutter::planned::Planned;
 use shutter::scene;
 use shutter::times::Times;
 use shutter_fit::delay::{self, Sync};
-use shutter_fit::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
+use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal};
 use shutter_fit::unit::Unit;
-use shutter_fit::{From, Options, report};
+use shutter_fit::{From, Options, report, speed};
 
 use crate::words::{self, Told};
 
@@ -18,8 +18,6 @@ use crate::words::{self, Told};
 const MOST: usize = 2000;
 /// The first rows of a file that are shown.
 const ROWS: usize = 6;
-/// A longer trace would fill a page's memory.
-const LONGEST: usize = 256 << 20;
 
 /// What the page asks. A scene is the text of its TOML.
 #[derive(Deserialize)]
@@ -38,7 +36,7 @@ pub fn ask(question: &[u8], payload: Vec<u8>, progress: &mut dyn FnMut(f64)) -> 
     match serde_json::from_slice(question) {
         Ok(Question::Emit { name, scene, form }) => json(&emitted(&name, &scene, &form)),
         Ok(Question::Scene { name, scene }) => json(&checked(&name, &scene)),
-        Ok(Question::Fit { name, asked }) => json(&measured(&name, payload, &asked, progress)),
+        Ok(Question::Fit { name, asked }) => json(&Ok(measured(&name, payload, &asked, progress))),
         Err(error) => json(&Err::<(), _>(error.to_string())),
     }
 }
@@ -72,8 +70,8 @@ fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, String> {
 fn checked(name: &str, text: &str) -> Result<scene::Scene, String> {
     let located = |fault: Fault| fault.locate(name, text);
     if let Planned::Times(_) = Planned::parse(text).map_err(located)? {
-        let reason = "these are trigger times as they were measured, and this page needs the curve that they lack: open their \
-                      trace here, or give the times to `shutter plan` in a terminal";
+        let reason = "these are trigger times as they were measured, and this page needs the curve that they lack: \
+                      open their trace here, or give the times to `shutter plan` in a terminal";
         return Err(format!("{name}: {reason}"));
     }
     scene::parse(text).map_err(located)
@@ -93,8 +91,7 @@ struct Asked {
     columns: Vec<usize>,
     /// The sync's column, from 1.
     sync: Option<usize>,
-    /// Does light raise the signal?
-    rises: Option<bool>,
+    light: Light,
     /// The signal of full light.
     full: Option<f64>,
     /// Which pulse, from 1.
@@ -105,21 +102,10 @@ struct Asked {
 /// A trace: what its file begins with, how it was read, and its fit or what is in the way of that.
 #[derive(Serialize)]
 struct Measured {
-    names: Vec<Option<String>>,
-    rows: Vec<(u64, Vec<String>)>,
-    read: Option<Read>,
+    #[serde(flatten)]
+    preview: Preview,
+    read: Option<Reading>,
     fit: Result<Fitted, Told>,
-}
-
-/// How a file was read: the columns by their numbers, and the unit of its times or their rate.
-#[derive(Serialize)]
-struct Read {
-    columns: usize,
-    time: Option<usize>,
-    signal: usize,
-    sync: Option<usize>,
-    unit: Option<Unit>,
-    rate: Option<f64>,
 }
 
 /// A trace's fit.
@@ -160,11 +146,8 @@ struct Own {
 }
 
 /// Reads the trace in `bytes`, and fits it.
-fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Measured, String> {
-    if bytes.len() > LONGEST {
-        return Err(format!("{} MB: cut the trace to the pulse", bytes.len() >> 20));
-    }
-    let preview = trace::preview(&bytes, ROWS).unwrap_or(Preview { names: vec![], rows: vec![] });
+fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Measured {
+    let preview = trace::preview(&bytes, ROWS).unwrap_or_default();
     let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
     let options = trace::Options {
         unit: asked.unit,
@@ -176,39 +159,18 @@ fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(
     };
     let recording = trace::open(&bytes, &options);
     drop(bytes);
-    let read = recording.as_ref().ok().map(|recording| Read::new(&recording.reading));
+    let read = recording.as_ref().ok().map(|recording| recording.reading.clone());
     let fit = recording
         .and_then(|recording| fitted(name, recording, asked, progress))
-        .map_err(|refusal| words::refusal(&refusal, asked.rises.is_some()));
-    Ok(Measured { names: preview.names, rows: preview.rows, read, fit })
-}
-
-impl Read {
-    fn new(Reading { columns, time, signal, sync, clock, .. }: &Reading) -> Self {
-        let (unit, rate) = match *clock {
-            Clock::Unit(unit) => (Some(unit), None),
-            Clock::Rate(rate) => (None, Some(rate)),
-        };
-        Self {
-            columns: *columns,
-            time: time.as_ref().map(|it| it.0),
-            signal: signal.0,
-            sync: sync.as_ref().map(|it| it.0),
-            unit,
-            rate,
-        }
-    }
+        .map_err(|refusal| words::refusal(&refusal, asked.light != Light::Auto));
+    Measured { preview, read, fit }
 }
 
 fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Fitted, Refusal> {
     let options = Options {
         full: asked.full,
         frame: asked.frame,
-        light: match asked.rises {
-            None => Light::Auto,
-            Some(true) => Light::Up,
-            Some(false) => Light::Down,
-        },
+        light: asked.light,
         triggers: Some(asked.triggers),
         sync: recording.sync.map(Sync::Channel),
         ..Options::default()
@@ -233,17 +195,14 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         let residual = (v - fit.value(t)) / signal.gain;
         (t - start, (v - signal.dark) / signal.gain, residual)
     });
-    // What the program says of its own arguments is not for a page.
-    let report = shutter_fit::text(name, &fit);
-    let report: Vec<_> = report.lines().filter(|line| !line.contains("--")).collect();
     Ok(Fitted {
         scene: scene::parse(&text).map_err(|fault| no_scene(&fault))?,
-        report: report.join("\n"),
+        report: shutter_fit::text(name, &fit),
         kind: fit.chosen.title(),
         json: shutter_fit::json(name, &fit, &[]),
         exposure: report::exposure(&fit),
         efficiency: report::efficiency(&fit),
-        tester: report.iter().find_map(|line| line.strip_prefix("tester")).unwrap_or_default().trim().into(),
+        tester: speed::times(&fit).join("; "),
         delay: fit.delay.as_ref().map(|delay| delay::told(Some(delay), fit.unit())),
         own,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),

@@ -3,11 +3,15 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, bouncing, choose, curve, drag, drop, open, page, preset, ready, setUp, settled, ticks, trace, values } from './harness.js';
+import {
+  ROOT, bouncing, choose, curve, drag, drop, open, page, preset, ready, rows, setUp, settled, ticks, trace, values,
+} from './harness.js';
 
 setUp('firefox');
 
-test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload keeps the steps', { timeout: 180_000 }, async () => {
+const LONG = { timeout: 180_000 };
+
+test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload keeps the steps', LONG, async () => {
   await open(undefined, { width: 1280, height: 1500 });
   const first = await values();
   await settled();
@@ -34,7 +38,7 @@ test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload 
   assert.deepEqual(await values(), first);
 });
 
-test('in Firefox a misfit is exported by its own times, and several traces make a table', { timeout: 180_000 }, async () => {
+test('in Firefox a misfit is exported by its own times, and several traces make a table', LONG, async () => {
   await open(undefined, { width: 1280, height: 2800 });
   await drop(['bounce.csv', bouncing()]);
   await page.says('at the trace’s own times');
@@ -43,5 +47,5 @@ test('in Firefox a misfit is exported by its own times, and several traces make 
   assert.equal((await ticks()).length, 12);
   await drop(['250.csv', trace({ open: 1.5 })], ['125.csv', trace({ open: 5.5 })]);
   await page.waitForSelector('#speeds:not([hidden])');
-  assert.deepEqual(await page.$$eval('#speeds-table tbody tr', (all) => all.map((row) => row.children[2].textContent)), ['1/250', '1/125']);
+  assert.deepEqual((await rows('#speeds-table tbody')).map((row) => row[2]), ['1/250', '1/125']);
 });

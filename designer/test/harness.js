@@ -20,23 +20,27 @@ export let server, url, browser, page;
 export let complaints, requests;
 export const forgive = () => (complaints.length = 0);
 
-export const shutter = (...args) => execFileSync(SHUTTER, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+export const shutter = (...args) =>
+  execFileSync(SHUTTER, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 
-/** A browser of its own, without what others have kept. */
-export const start = (name = 'chrome') => launch({
-  browser: name, executablePath: name === 'chrome' ? process.env.CHROMIUM : process.env.FIREFOX, headless: true, timeout: 120_000,
-  args: name === 'chrome' ? ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'] : [],
-});
+// No calls to their makers, and no sandbox, which a container has not.
+const QUIET = ['sync', 'gpu', 'quic', 'background-networking', 'component-update'].map((it) => `--disable-${it}`);
+const BROWSERS = {
+  chrome: { executablePath: process.env.CHROMIUM, args: ['--no-sandbox', '--no-first-run', ...QUIET] },
+  firefox: { executablePath: process.env.FIREFOX },
+};
 
 /** Begins with a server and a browser. No test leaves an error on the console, nor a request to anyone else. */
 export function setUp(name = 'chrome') {
   before(async () => {
     mkdirSync(downloads, { recursive: true });
-    server = spawn(SHUTTER, ['design', '--no-open', '--port', '0', '--page', join(ROOT, 'designer', 'dist')], { stdio: ['ignore', 'pipe', 'inherit'] });
+    const args = ['design', '--no-open', '--port', '0', '--page', join(ROOT, 'designer', 'dist')];
+    server = spawn(SHUTTER, args, { stdio: ['ignore', 'pipe', 'inherit'] });
     const [told] = await once(server.stdout, 'data');
     url = String(told).match(/http:\S+/)[0];
-    browser = await start(name);
-    if (name === 'chrome') await browser.defaultBrowserContext().overridePermissions(url.slice(0, -1), ['clipboard-read', 'clipboard-write', 'clipboard-sanitized-write']);
+    browser = await launch({ browser: name, headless: true, timeout: 120_000, ...BROWSERS[name] });
+    const clipboard = ['read', 'write', 'sanitized-write'].map((it) => `clipboard-${it}`);
+    if (name === 'chrome') await browser.defaultBrowserContext().overridePermissions(url.slice(0, -1), clipboard);
   });
   after(async () => {
     await browser?.close();
@@ -53,7 +57,8 @@ export function setUp(name = 'chrome') {
 }
 
 /** The scene that most tests begin with. */
-export const SOFT = '#name=soft&unit=ms&times=0,2.5,7.5,10&inner=0.1,0,0.15,1,0.85,1,0.9,0&triggers=12&timer_hz=1000000&min_gap=0.4&set_up=emulated';
+export const SOFT = '#name=soft&unit=ms&times=0,2.5,7.5,10&inner=0.1,0,0.15,1,0.85,1,0.9,0'
+  + '&triggers=12&timer_hz=1000000&min_gap=0.4&set_up=emulated';
 
 /** Opens the page. Tall, so that all panels are seen, and written. */
 export async function open(hash = SOFT, size = { width: 1360, height: 2800 }) {
@@ -76,7 +81,8 @@ export async function ready(on = page) {
 }
 
 /** Until a frame is drawn, and the page's observers are told of it. */
-export const drawn = (on = page) => on.evaluate(() => new Promise((done) => new IntersectionObserver(done).observe(document.body)));
+export const drawn = (on = page) =>
+  on.evaluate(() => new Promise((done) => new IntersectionObserver(done).observe(document.body)));
 
 /** Until the form of what is on the screen is written. */
 export const written = () => page.until(() => !document.getElementById('code').classList.contains('waits'));
@@ -130,7 +136,8 @@ export function extend(page) {
     },
     /** A button by its words. */
     push: (words) => page.evaluate((words) => {
-      const found = [...document.querySelectorAll('button')].find((it) => it.textContent === words && it.checkVisibility());
+      const all = [...document.querySelectorAll('button')];
+      const found = all.find((it) => it.textContent === words && it.checkVisibility());
       if (!found) throw new Error(`no button ${words}`);
       found.focus();
       found.click();
@@ -145,7 +152,8 @@ export function extend(page) {
 }
 
 /** Until a trace is read, and nothing more is computed. */
-export const fitted = (name) => page.until((name) => document.querySelector('#facts h3')?.textContent === name && document.getElementById('busy').hidden, name);
+export const fitted = (name) => page.until((name) =>
+  document.querySelector('#facts h3')?.textContent === name && document.getElementById('busy').hidden, name);
 
 export const preset = (name) => page.$eval(`#presets [data-name="${name}"]`, (it) => it.click());
 
@@ -179,7 +187,7 @@ export async function planned(form = 'json', name = 'copied') {
   return shutter('plan', file, '--emit', form);
 }
 
-/** The file that an action saves. */
+/** What the file is called that an action saves. */
 export async function saved(act) {
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: downloads });
@@ -188,12 +196,15 @@ export async function saved(act) {
   await act();
   for (let i = 0; i < 3000; i++, await new Promise((done) => setTimeout(done, 20))) {
     const [name] = readdirSync(downloads);
-    if (name && !name.endsWith('.crdownload')) return { name, path: join(downloads, name) };
+    if (name && !name.endsWith('.crdownload')) return name;
   }
   assert.fail('nothing was saved');
 }
 
-export const ticks = () => page.$$eval('#ticks tbody tr', (rows) => rows.map((row) => Number(row.children[3].textContent)));
+/** What stands in the rows of a table. */
+export const rows = (sel) =>
+  page.$$eval(`${sel} tr`, (all) => all.map((row) => [...row.children].map((it) => it.textContent)));
+export const ticks = async () => (await rows('#ticks tbody')).map((row) => Number(row[3]));
 export const curve = () => page.attribute('#graph path.curve', 'd');
 export const values = () => page.$$eval('[role=slider]', (all) => all.map((it) => it.getAttribute('aria-valuenow')));
 
@@ -221,7 +232,9 @@ export async function drop(...files) {
 }
 
 /** A trace: it opens in `up`, is open for `open`, closes in `down`, in ms; with noise, and what `more` adds. */
-export function trace({ up = 2, open = 4, down = 3, from = 3, step = 0.01, samples = 1500, more = () => 0, seed = 1, noise = 0.01 } = {}) {
+export function trace({
+  up = 2, open = 4, down = 3, from = 3, step = 0.01, samples = 1500, more = () => 0, seed = 1, noise = 0.01,
+} = {}) {
   const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5;
   let text = 'time_s,voltage_v\n';
   for (let i = 0; i < samples; i++) {
@@ -233,10 +246,15 @@ export function trace({ up = 2, open = 4, down = 3, from = 3, step = 0.01, sampl
 }
 
 /** One whose shutter bounces, which no curve explains. */
-export const bouncing = (options = {}) => trace({ noise: 0.002, more: (t) => (t > 9.6 && t < 10.4 ? 0.3 * Math.sin((Math.PI * (t - 9.6)) / 0.8) : t > 3 && t < 4.4 ? -0.12 * Math.sin((Math.PI * (t - 3)) / 1.4) : 0), ...options });
+export const bouncing = () => trace({ noise: 0.002, more: (t) => sine(t, 9.6, 10.4, 0.3) + sine(t, 3, 4.4, -0.12) });
 
-/** One whose amplifier stops at a share of its light. */
-export const clipped = (share = 0.6) => trace({ noise: 0.002 }).replace(/,([\d.]+)$/gm, (_, v) => `,${Math.min(Number(v), 0.1 + 2.4 * share).toFixed(4)}`);
+/** Half a period. */
+export const sine = (t, from, to, height) =>
+  t > from && t < to ? height * Math.sin((Math.PI * (t - from)) / (to - from)) : 0;
+
+/** One whose amplifier stops at 60 % of its light. */
+export const clipped = () =>
+  trace({ noise: 0.002 }).replace(/,([\d.]+)$/gm, (_, v) => `,${Math.min(v, 0.1 + 2.4 * 0.6).toFixed(4)}`);
 
 /** What is no trace that can be fitted as it is. */
 export const refused = () => Array.from({ length: 900 }, (_, i) => (i > 300 && i < 600 ? 1 : 0)).join('\n');

@@ -1,4 +1,5 @@
-// Anything in any order: after each action the screen, the model and the address are of one state, and no doubt is left out.
+// Anything in any order: after each action the screen, the model and the address are of one state, and no doubt is left
+// out.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -24,20 +25,30 @@ async function play({ seed, count }) {
     const handle = pick(handles());
     handle.setPointerCapture = () => {};
     const { x, y, width, height } = handle.lastChild.getBoundingClientRect();
-    const send = (type, dx, dy) => handle.dispatchEvent(new PointerEvent(type, { bubbles: true, pointerId: 1, button: 0, clientX: x + width / 2 + dx, clientY: y + height / 2 + dy }));
+    const send = (type, dx, dy) => {
+      const at = { clientX: x + width / 2 + dx, clientY: y + height / 2 + dy };
+      handle.dispatchEvent(new PointerEvent(type, { bubbles: true, pointerId: 1, button: 0, ...at }));
+    };
     const [dx, dy] = [random(900) - 450, random(600) - 300];
     send('pointerdown', 0, 0);
     for (const part of [0.3, 0.7, 1]) send('pointermove', part * dx, part * dy);
     send(pick(['pointerup', 'pointerup', 'pointercancel']), dx, dy);
   };
-  const key = (target, name, more) => target.dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true, ...more }));
-  const numbers = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'nominal', 'delay', 'delay_spread', 'lamp_lag', 'open_start', 'open_end', 'close_start', 'close_end', 't1', 'y2', 't5', 'y6'];
-  const values = ['1', '2,5', '0.3', '7', '-1', '1,000', '', 'x', '12', '12.5', '1e6', '1e300', '1/125', '16', '12 000 us', '32.768 kHz', '0', '40'];
+  const key = (target, key, more) =>
+    target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, ...more }));
+  const numbers = designer.FIELDS.filter((id) => !$(id).labels[0].dataset.lamp);
+  const values = [
+    '1', '2,5', '0.3', '7', '-1', '1,000', '', 'x', '12', '12.5', '1e6', '1e300', '1/125', '16', '12 000 us', '0', '40',
+    '32.768 kHz',
+  ];
+  const keys = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp'];
+  const number = () => input(pick(numbers), pick(values));
   const actions = {
-    drag, preset: () => pick([...$('presets').children].slice(0, 4)).click(), unit: () => input('unit', pick(['s', 'ms', 'µs', 'ns'])),
-    lamp: () => $('lamp').disabled || input('lamp', pick(['', 'pulse', 'duty'])), straight: () => $('straight').click(), name: () => input('name', `n${random(1000)}`),
-    arrows: () => key(pick(handles()), pick(['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp']), { shiftKey: !random(4) }),
-    slider: () => input('flashes', String(random(56))), number: () => input(pick(numbers), pick(values)), another: () => input(pick(numbers), pick(values)),
+    drag, number, another: number, straight: () => $('straight').click(), name: () => input('name', `n${random(1000)}`),
+    preset: () => pick([...$('presets').children].slice(0, 4)).click(),
+    unit: () => input('unit', pick(['s', 'ms', 'µs', 'ns'])), slider: () => input('flashes', String(random(56))),
+    lamp: () => $('lamp').disabled || input('lamp', pick(['', 'pulse', 'duty'])),
+    arrows: () => key(pick(handles()), pick(keys), { shiftKey: !random(4) }),
     undo: () => key(window, 'z', { ctrlKey: true }), redo: () => key(window, 'y', { ctrlKey: true }),
     remedy: () => pick([...document.querySelectorAll('#problem button, #by-hand button')])?.click(),
   };
@@ -50,31 +61,35 @@ async function play({ seed, count }) {
     await new Promise((done) => setTimeout(done));
     const fault = (words) => faults.push(`${i} ${name}: ${words}`);
     const { now: { scene, trace }, view, last, wrong } = model;
-    const all = { open_start: 0, open_end: 1, close_start: 2, close_end: 3 };
-    for (const id of [...Object.keys(all), 'triggers', 'timer_hz', 'min_gap', 'delay', 'nominal']) {
-      const value = all[id] === undefined ? scene[id] : scene.times[all[id]];
-      if (wrong?.id !== id && document.activeElement !== $(id) && $(id).value !== String(value ?? '')) fault(`${id} shows ${$(id).value}, is ${value}`);
+    for (const [i, id] of numbers.entries()) {
+      const value = i < 4 ? scene.times[i] : scene[id], isTyped = wrong?.id === id || document.activeElement === $(id);
+      const isPoint = /^[ty]\d/.test(id);
+      if (!isTyped && !isPoint && $(id).value !== String(value ?? '')) fault(`${id} shows ${$(id).value}, is ${value}`);
     }
     if (Boolean(view) && wrong && $('problem').hidden) fault('what is wrong is not told');
     if (view) {
       const told = Number(/^Exposure([\d.e+-]+)/.exec($('facts').querySelector('dl').textContent)?.[1]);
       const isFitted = trace && told === Number(trace.fit.exposure.split(' ')[0]);
       const per = { s: 1, ms: 1e3, µs: 1e6, ns: 1e9 }[scene.unit];
-      if (!isFitted && !scene.measured && !(Math.abs(told / (per * last.exposure) - 1) < 1e-4)) fault(`the facts tell ${told}, it is ${per * last.exposure}`);
+      const isRight = isFitted || scene.measured || Math.abs(told / (per * last.exposure) - 1) < 1e-4;
+      if (!isRight) fault(`the facts tell ${told}, it is ${per * last.exposure}`);
       for (const { text } of scene.doubts) if (!$('facts').textContent.includes(text)) fault(`no doubt: ${text}`);
       const [a, b, c, d] = last.times;
       if (!(a <= b && b <= c && c <= d)) fault(`out of order: ${last.times}`);
       for (const it of handles().filter((it) => it.matches('.control'))) {
         const [now, least, most] = ['now', 'min', 'max'].map((name) => Number(it.getAttribute(`aria-value${name}`)));
-        if (!(now >= least - 1e-4 * Math.abs(least) - 1e-9 && now <= most + 1e-4 * Math.abs(most) + 1e-9)) fault(`${it.id} is at ${now}, not in ${least} to ${most}`);
+        const room = (end) => 1e-4 * Math.abs(end) + 1e-9;
+        const isIn = now >= least - room(least) && now <= most + room(most);
+        if (!isIn) fault(`${it.id} is at ${now}, not in ${least} to ${most}`);
       }
     }
     if (wrong && !$('copy').disabled) fault('a plan is offered that there is not');
     if (i % 10 === 9) {
       // Undone, what is half typed goes; then the address is that of the screen.
       while (model.isDraft && !$('undo').disabled) $('undo').click();
-      for (let k = 0; k < 100 && location.hash !== hash(model.now); k++) await new Promise((done) => setTimeout(done, 20));
-      if (location.hash !== hash(model.now)) fault(`the address is ${location.hash}, the screen ${hash(model.now)}`);
+      const isSettled = () => location.hash === hash(model.now);
+      for (let k = 0; k < 100 && !isSettled(); k++) await new Promise((done) => setTimeout(done, 20));
+      if (!isSettled()) fault(`the address is ${location.hash}, the screen ${hash(model.now)}`);
     }
   }
   return { faults, done };
@@ -82,7 +97,7 @@ async function play({ seed, count }) {
 
 /** All that a person sees of the scene, to the bit. */
 const seen = () => page.evaluate(() => ({
-  numbers: [...document.querySelectorAll('#numbers input, #numbers select')].map((it) => [it.id, it.type === 'checkbox' ? it.checked : it.value]),
+  numbers: [...document.querySelectorAll('#numbers :is(input, select)')].map((it) => [it.id, it.checked, it.value]),
   curve: document.querySelector('#graph path.curve').getAttribute('d'),
   handles: [...document.querySelectorAll('g.handle')].map((it) => it.getAttribute('transform')),
   pressed: [...document.querySelectorAll('[aria-pressed=true]')].map((it) => it.dataset.name),
@@ -101,11 +116,15 @@ for (const seed of [7, 2026]) {
     await open('');
     const first = await seen();
     const [good, bad] = [[['good.csv', trace()]], [['bad.csv', refused()]]];
+    const two = [['TEK.csv', trace({ open: 1.5 })], ['TEK.csv', trace({ open: 5.5 })]];
     // One that is refused beside a good one, too.
-    for (const [round, drops] of [[], [good], [good, bad], [[['clipped.csv', clipped()]]], [[['TEK.csv', trace({ open: 1.5 })], ['TEK.csv', trace({ open: 5.5 })]]]].entries()) {
+    for (const [round, drops] of [[], [good], [good, bad], [[['clipped.csv', clipped()]]], [two]].entries()) {
       for (const files of drops) {
         await drop(...files);
-        await page.until((n, name) => !designer.model.busy && (n > 1 ? designer.model.now.speeds : designer.model.note || (designer.model.pending ?? designer.model.now.trace)?.name === name), files.length, files[0][0]);
+        await page.until((n, name) => {
+          const { busy, note, pending, now: { trace, speeds } } = designer.model;
+          return !busy && (n > 1 ? speeds : note || (pending ?? trace)?.name === name);
+        }, files.length, files[0][0]);
         if (files.length > 1) await page.click('#speeds-close');
       }
       const { faults, done } = await page.evaluate(play, { seed: seed + round, count: 60 });
@@ -113,8 +132,11 @@ for (const seed of [7, 2026]) {
       assert.ok(Object.keys(done).length > 10, JSON.stringify(done));
       if (await page.evaluate(() => Boolean(designer.model.view?.plan.Ok && !designer.model.now.scene.untold))) {
         const { triggers, doubts = [] } = JSON.parse(await copied('json'));
-        const { ticks, told } = await page.evaluate(() => ({ ticks: designer.model.view.plan.Ok.ticks, told: designer.model.now.scene.doubts.map((it) => it.text) }));
-        assert.deepEqual([triggers.map((it) => it.ticks), doubts], [ticks, told]);
+        const shown = await page.evaluate(() => {
+          const { view, now: { scene } } = designer.model;
+          return [view.plan.Ok.ticks, scene.doubts.map((it) => it.text)];
+        });
+        assert.deepEqual([triggers.map((it) => it.ticks), doubts], shown);
       }
     }
     const last = (await goAll('redo'), await seen());

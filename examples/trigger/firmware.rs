@@ -122,7 +122,7 @@ enum Wrong {
 fn plan(wanted: u32, fault: Fault) -> Result<TriggerTicks<'static>, ScheduleError> {
     // A pulse may be late and the next on time.
     let gap = if fault == Fault::Close { 1 } else { MIN_GAP + LATEST };
-    let n = SHUTTER.most_triggers(wanted.min(CAPACITY as u32), TICK_HZ, gap)?;
+    let n = SHUTTER.max_triggers(wanted.min(CAPACITY as u32), TICK_HZ, gap)?;
     SHUTTER.trigger_ticks(n, TICK_HZ)
 }
 

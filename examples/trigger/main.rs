@@ -26,7 +26,7 @@ mod measured;
 #[cfg(not(target_os = "none"))]
 fn main() {
     eprintln!(
-        "This is firmware for a Cortex-M4F. Type this to run it in QEMU, with what it needs fetched into a cache:\n\n    \
+        "This is firmware for a Cortex-M4F. Type this to run it in QEMU; what it needs is fetched into a cache:\n\n    \
          .ci/thumb.sh cargo trigger\n\n\
          On this machine run another example: density, trapezoid or motion_blur."
     );

@@ -155,7 +155,7 @@ pub(crate) fn measure(
     if is_given && edges[asked].is_none() {
         let is_own = |k: &usize| shots[*k].record == fitted.record && edges[*k].is_some();
         let first = (0..shots.len()).find(is_own).map_or(0, |k| k + 1);
-        return refused(&format!("the edge of the sync is followed by pulse {first} first: --frame {first}"));
+        return Err(Refusal::OtherPulse { first });
     }
 
     let curve = signal.curve;
@@ -174,7 +174,7 @@ pub(crate) fn measure(
         variance += error.powi(2) + later.error.powi(2);
     }
     if delays.is_empty() {
-        return refused("no shot of the fitted speed has an edge before it (--frame)");
+        return refused("no shot of the fitted speed has an edge before it");
     }
     let is_late = delays.iter().filter(|delay| **delay < 0.0);
     let by = is_late.clone().fold(0.0, |most, delay| f64::max(most, -delay));
@@ -256,7 +256,7 @@ fn later(fitted: &Signal, &Shot { pulses, frame, .. }: &Shot, like: &Frame) -> M
 /// The delay with its standard errors, and how shots differ, for a report.
 pub fn told(delay: Option<&Delay>, unit: Unit) -> String {
     let Some(delay) = delay else {
-        return "unknown: --sync says when the edge comes, or in which column".into();
+        return "unknown: the column of the sync tells it, or the time of its edge".into();
     };
     let digits = |error: f64| short(unit.of(error), 2);
     let value = unit.plus_minus(delay.mean(), delay.error());

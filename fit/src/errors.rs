@@ -1,7 +1,7 @@
 //! What the noise makes of the results: standard errors from the normal equations, and beside them what a ramp's foot,
 //! a low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
 
-use crate::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole, fractions};
+use crate::curve::{CLOSING, CONTROLS, Curve, Exposure, OPENING, PARAMETERS, PLATEAU, START, Whole, fractions};
 use crate::frame::FrameFits;
 use crate::hum;
 use crate::missed::least_open;
@@ -45,6 +45,8 @@ pub struct Results {
     pub exposure: Measured,
     pub efficiency: Measured,
     pub start: Measured,
+    /// How long the curve opens, is fully open, and closes.
+    pub parts: [Measured; 3],
     pub triggers: Vec<Measured>,
 }
 
@@ -60,6 +62,7 @@ impl Results {
             exposure: self.exposure.scaled(units.pulse * peak),
             efficiency: self.efficiency.scaled(peak),
             start: seconds(self.start),
+            parts: self.parts.map(|part| part.scaled(units.pulse)),
             triggers: self.triggers.into_iter().map(seconds).collect(),
         }
     }
@@ -79,6 +82,7 @@ impl Results {
         }
         let late = fits.rounding.hypot(0.3 * lamp).hypot(hum) * self.exposure.value;
         self.times().for_each(|time| time.widen(late));
+        self.parts.iter_mut().for_each(|part| part.widen(late));
         self
     }
 
@@ -92,7 +96,9 @@ impl Results {
 
     /// With what is not known of the clock, in seconds.
     pub fn timed(mut self, timing: &Timing) -> Self {
-        self.exposure.widen(timing.pace * self.exposure.value);
+        for span in self.parts.iter_mut().chain([&mut self.exposure]) {
+            span.widen(timing.pace * span.value);
+        }
         self.times().for_each(|time| time.widen(timing.error));
         self
     }
@@ -129,6 +135,9 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
     widen(&mut chosen.exposure, &|results| results.exposure);
     widen(&mut chosen.efficiency, &|results| results.efficiency);
     widen(&mut chosen.start, &|results| results.start);
+    for (i, part) in chosen.parts.iter_mut().enumerate() {
+        widen(part, &|results| results.parts[i]);
+    }
     for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
         widen(trigger, &|results| results.triggers[i]);
     }
@@ -176,7 +185,7 @@ impl<'a> OfKind<'a> {
     fn results(&self, n: u32) -> Results {
         let exposure = self.exposure();
         let efficiency = self.efficiency(exposure);
-        Results { exposure, efficiency, start: self.start(), triggers: self.triggers(n) }
+        Results { exposure, efficiency, start: self.start(), parts: self.parts(), triggers: self.triggers(n) }
     }
 
     /// The light that each foot may hold or not.
@@ -205,21 +214,40 @@ impl<'a> OfKind<'a> {
         Measured { value, error: (light / length).hypot(value * ends / length) }
     }
 
-    /// When it starts to open. A soft ramp hides that as it hides the length, and each ramp as much of it as it is
-    /// long. The linear error counts as well, but where a shape makes up for a shift it is too large: the length's
-    /// serves as its bound.
+    /// When it starts to open.
     fn start(&self) -> Measured {
-        let Curve { start: value, opening, closing, .. } = self.integral.curve;
+        let curve = self.integral.curve;
+        Measured { value: curve.start, error: self.end(START, curve.opening).hypot(self.feet[0]) }
+    }
+
+    /// How long it opens, is fully open, and closes. Nobody knows a ramp's shape near full light either.
+    fn parts(&self) -> [Measured; 3] {
+        let Curve { opening, plateau, closing, .. } = self.integral.curve;
+        let near = self.integral.feet(1.0 - FOOT);
+        let [first, last] = if self.is_straight { [0.0; 2] } else { [opening - near[0], closing - near[1]] };
+        let edges = self.covariance.edges.map(f64::sqrt);
+        [
+            (OPENING, opening, opening, self.feet[0].hypot(first).hypot(edges[0])),
+            (PLATEAU, plateau, opening + closing, first.hypot(last)),
+            (CLOSING, closing, closing, self.feet[1].hypot(last).hypot(edges[1])),
+        ]
+        .map(|(k, value, ramps, unseen)| Measured { value, error: self.end(k, ramps).hypot(unseen) })
+    }
+
+    /// The standard error of a time of the curve. Soft ramps hide it as they hide the length, and each ramp as much of
+    /// it as it is long. The linear error counts as well, but where a shape makes up for a shift it is too large: the
+    /// length's serves as its bound.
+    fn end(&self, parameter: usize, ramps: f64) -> f64 {
+        let Curve { opening, closing, .. } = self.integral.curve;
         let mut moves = [0.0; PARAMETERS];
-        moves[START] = 1.0;
+        moves[parameter] = 1.0;
         let linear = self.covariance.error(&moves);
         if self.is_straight {
-            return Measured { value, error: linear };
+            return linear;
         }
-        // Of ramps without a length each may hide half.
-        let share = if opening + closing > 0.0 { opening / (opening + closing) } else { 0.5 };
-        let hidden = self.length * share;
-        Measured { value, error: hidden.hypot(linear.min(self.length)).hypot(self.feet[0]) }
+        // Where there is no ramp, nothing says where the length is hidden.
+        let share = if opening + closing > 0.0 { ramps / (opening + closing) } else { 1.0 };
+        (self.length * share).hypot(linear.min(self.length))
     }
 
     fn triggers(&self, n: u32) -> Vec<Measured> {

@@ -41,6 +41,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "open_s": open_s,
         "closes_s": closes_s,
         "closed_s": closed_s,
+        "parts_error_s": (fit.from == From::Model).then(|| fit.parts.map(|part| part.error)),
         "half_light_s": fit.half_light(),
         "rise_fall_s": fit.rise_and_fall(),
         "triggers": triggers(&fit.triggers),

@@ -36,7 +36,7 @@ mod search;
 mod shots;
 mod signal;
 mod solve;
-mod speed;
+pub mod speed;
 mod structure;
 pub mod trace;
 pub mod unit;
@@ -167,6 +167,7 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
         reason,
         exposure: results.exposure,
         efficiency: results.efficiency,
+        parts: model.parts,
         opens: results.start.value,
         delay: None,
         triggers: results.triggers,

@@ -139,6 +139,8 @@ pub struct Fit {
     pub exposure: Measured,
     /// The exposure by the time from the start of opening to the end of closing, as far as the curve shows that.
     pub efficiency: Measured,
+    /// How long the curve opens, is fully open, and closes, in seconds: a tester's T1 to T3.
+    pub parts: [Measured; 3],
     /// When the shutter starts to open, in seconds: with the curve, or with light that comes before it.
     pub opens: f64,
     /// From the edge of the camera's sync to the start of opening, where the edge is known.

@@ -96,7 +96,7 @@ fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
         writeln!(out, "ramps        x1 y1 x2 y2: {o} opening, {c} closing")?;
         writeln!(out, "             (the closing ramp seen backwards; fractions of each ramp)")?;
     }
-    writeln!(out, "tester       {}", speed::times(fit))?;
+    writeln!(out, "tester       {}", speed::times(fit).join("\n             "))?;
     writeln!(out, "exposure     {}{}", exposure(fit), source(fit))?;
     if let Some(speed) = speed::speed(fit) {
         writeln!(out, "speed        {speed}")?;

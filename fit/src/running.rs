@@ -76,7 +76,8 @@ pub fn results(fits: &FrameFits, kind: Kind, model: &Results, n: u32) -> Option<
     let value = model.start.value.min(earliest).min(running.early.unwrap_or(f64::INFINITY));
     let error = model.start.error.hypot(apart).hypot(model.start.value - value);
     let start = Measured { value, error };
-    Some(Results { exposure, efficiency, start, triggers }.widened(fits, kind))
+    let parts = model.parts;
+    Some(Results { exposure, efficiency, start, parts, triggers }.widened(fits, kind))
 }
 
 impl Running {

@@ -1,8 +1,9 @@
 //! What a shutter tester says: the exposure beside the nearest speed of the scale, and the curve's times by their
 //! names.
 
+use crate::errors::Measured;
 use crate::outcome::{Fit, From};
-use crate::unit::{decimals, short, stops};
+use crate::unit::{decimals, plus_minus, short, stops};
 
 /// The full steps of the usual scale that are no powers of two, in parts of a second.
 const FRACTIONS: [f64; 13] = [8000.0, 4000.0, 2000.0, 1000.0, 500.0, 250.0, 125.0, 60.0, 30.0, 15.0, 8.0, 4.0, 2.0];
@@ -41,23 +42,28 @@ pub fn speed(fit: &Fit) -> Option<String> {
     is_told.then(|| format!("{dial} measured, {called}: {} EV", stops(ev)))
 }
 
-/// T1 to T3, TE and TOT, as testers call them, to the digits that the length's error leaves.
-pub fn times(fit: &Fit) -> String {
+/// T1 to T3, as testers call them, with their errors, and TE and TOT to the digits that the length's error leaves.
+pub fn times(fit: &Fit) -> [String; 2] {
     let unit = fit.unit();
     let curve = fit.best().signal.curve;
     let places = places(fit);
     let show = |seconds: f64| format!("{:.places$}", unit.of(seconds));
-    let [opening, open, closing] = [curve.opening, curve.plateau, curve.closing].map(show);
+    // The errors are those of a curve that explains the trace.
+    let part = |Measured { value, error }: Measured| match fit.from {
+        From::Trace => show(value),
+        From::Model => plus_minus(unit.of(value), unit.of(error), "").trim_end().into(),
+    };
+    let [opening, open, closing] = fit.parts.map(part);
     let [from, to] = fit.half_light();
     let half = show(to - from);
     let [rise, fall] = fit.rise_and_fall().map(show);
     let by = if fit.from == From::Trace { ", by the model" } else { "" };
     let total = show(curve.length());
-    format!(
-        "T1 {opening}, T2 {open}, T3 {closing}; TE {half}; TOT {total} {unit}{by}\n             10 to 90 % in {rise}, back in {fall}; \
-         TE at half light",
-        unit = unit.name()
-    )
+    let name = unit.name();
+    [
+        format!("T1 {opening}, T2 {open}, T3 {closing} {name}{by}"),
+        format!("TE {half} at half light, TOT {total}; 10 to 90 % in {rise} and {fall} {name}"),
+    ]
 }
 
 /// The decimals of the curve's times: one digit more than their error has, and five digits at most.

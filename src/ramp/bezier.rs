@@ -1,7 +1,9 @@
 //! A cubic Bezier curve in (time, openness).
 
-/// A cubic Bezier `c(p) = (t(p), f(p))`, `p` in [0, 1], by its control points:
-/// `c(p) = P0 (1-p)³ + P1 3 (1-p)² p + P2 3 (1-p) p² + P3 p³`.
+/// A cubic Bezier curve of openness over time, with four control points.
+///
+/// With the control points `P0` to `P3` and `p` from 0 to 1, its points `(t(p), f(p))` are `P0 (1-p)³ + 3 P1 (1-p)² p +
+/// 3 P2 (1-p) p² + P3 p³`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CubicBezier {
@@ -9,12 +11,12 @@ pub struct CubicBezier {
 }
 
 impl CubicBezier {
-    /// The curve with control points `P0..P3`, each as (t, f): a time in any unit, and the openness there.
-    /// [`ShutterCurve::new`](crate::ShutterCurve::new) validates it.
+    /// Makes a curve from four control points, each a (time, openness). [`ShutterCurve::new`](crate::ShutterCurve::new)
+    /// checks them.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
-    /// // In ms: smooth ramps, and 3 ms fully open.
+    /// // In ms: soft ramps, and 3 ms fully open.
     /// let opening = CubicBezier::new([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]);
     /// let closing = CubicBezier::new([(5.0, 1.0), (6.0, 1.0), (6.0, 0.0), (7.0, 0.0)]);
     /// assert_eq!(ShutterCurve::new(opening, closing)?.exposure(), 5.0);
@@ -25,7 +27,7 @@ impl CubicBezier {
         Self { points }
     }
 
-    /// The straight line from `from` to `to`, each as (t, f), its control points a third of the way apart.
+    /// Makes a straight line between two points, each a (time, openness).
     ///
     /// ```
     /// use shutter_curve::CubicBezier;
@@ -45,13 +47,13 @@ impl CubicBezier {
         ])
     }
 
-    /// The curve with its openness, or density, times `factor`. The product is exact if `factor` is a power of two and
-    /// no number becomes subnormal or infinite.
+    /// Multiplies every openness by `factor`. The product is exact if `factor` is a power of two and no result is
+    /// subnormal or infinite.
     ///
     /// ```
     /// use shutter_curve::CubicBezier;
-    /// let density = CubicBezier::line((0.0, 0.0), (3.0, 96.0));
-    /// assert_eq!(density.scaled(1.0 / 128.0), CubicBezier::line((0.0, 0.0), (3.0, 0.75)));
+    /// let line = CubicBezier::line((0.0, 0.0), (3.0, 96.0));
+    /// assert_eq!(line.scaled(1.0 / 128.0), CubicBezier::line((0.0, 0.0), (3.0, 0.75)));
     /// ```
     #[must_use]
     pub const fn scaled(&self, factor: f32) -> Self {
@@ -59,12 +61,13 @@ impl CubicBezier {
         Self::new([(t0, f0 * factor), (t1, f1 * factor), (t2, f2 * factor), (t3, f3 * factor)])
     }
 
-    /// The opening and the closing ramp of RenderMan's `shutteropening`; see
-    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening), which validates them.
+    /// Makes the opening and the closing ramp from the arguments of
+    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening). Pass them to
+    /// [`ShutterCurve::with_octaves`](crate::ShutterCurve::with_octaves).
     ///
     /// ```
     /// use shutter_curve::CubicBezier;
-    /// // Times in ms; those of the inner control points are fractions of all 8 ms.
+    /// // Times are in ms. Those of the inner control points are fractions of the whole 8 ms.
     /// let inner = [0.125, 0.0, 0.125, 1.0, 0.875, 1.0, 0.875, 0.0];
     /// let (opening, closing) = CubicBezier::shutteropening([0.0, 2.0, 6.0, 8.0], inner);
     /// assert_eq!(opening.points(), [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]);
@@ -87,7 +90,7 @@ impl CubicBezier {
         )
     }
 
-    /// The control points `P0..P3`, each as (t, f); see [`line`](Self::line).
+    /// The four control points, each a (time, openness).
     #[must_use]
     pub const fn points(&self) -> [(f32, f32); 4] {
         self.points

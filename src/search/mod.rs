@@ -24,8 +24,8 @@ use guess::guess;
 const FREE_EVALUATIONS: u32 = 10;
 /// So many halvings of its bits bring any bracket in 0 to [`LAST_PLACE`] down to neighbours.
 const BISECTION: u32 = 31;
-/// The most evaluations of the polynomial in one search, in single precision and in pairs. A bisection takes one of
-/// each, and before the first one `FREE_EVALUATIONS` may be exceeded by 2.
+/// The most steps of a search. Each step evaluates a ramp's integral once, in `f32` or as the sum of two `f32`.
+// A bisection takes one of each, and before the first one `FREE_EVALUATIONS` may be exceeded by 2.
 pub const MAX_EVALUATIONS: u32 = FREE_EVALUATIONS + 2 + 2 * BISECTION;
 
 /// If no more than this share of what is sought is missing, it is measured in pairs. The next step leaves about the

@@ -6,22 +6,22 @@ use core::ops::Range;
 use crate::trigger::pulse::{Pulse, Pulses};
 use crate::trigger::ticks::Ticks;
 
-/// An iterator over the ticks of a frame's triggers, from
-/// [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). It runs from either end, and skips to any
-/// trigger at once.
+/// The ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). The
+/// iterator runs from either end, and computes only the ticks that it returns.
 ///
-/// If the curve is a `static`, the iterator is `'static` too, and the state of an interrupt handler can hold it:
+/// A `static` curve has a `'static` iterator, which an interrupt handler can keep:
 ///
 /// ```
-/// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
+/// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, expect_valid};
 ///
-/// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 /// const _: () = assert!(SHUTTER.direct_triggers() >= 16);
 ///
 /// fn begin() -> Result<TriggerTicks<'static>, ScheduleError> {
 ///     SHUTTER.trigger_ticks(16, 1_000_000)
 /// }
 ///
+/// /// `base` is the timer's count at which the shutter starts to open.
 /// fn on_interrupt(frame: &mut TriggerTicks<'static>, base: u32, set_compare: impl Fn(u32)) {
 ///     if let Some(tick) = frame.next() {
 ///         set_compare(base.wrapping_add(tick));
@@ -36,8 +36,8 @@ pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) left: Range<u32>,
 }
 
-/// An iterator over a frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). It runs
-/// from either end, and skips to any pulse at once.
+/// A frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). The iterator runs from
+/// either end, and computes only the pulses that it returns.
 #[derive(Clone)]
 pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) frame: Pulses<'a, OCTAVES>,
@@ -46,7 +46,7 @@ pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
 
 #[cfg(feature = "measure")]
 impl<const OCTAVES: usize> TriggerTicks<'_, OCTAVES> {
-    /// Is trigger `i` of the frame placed without a search?
+    /// Whether trigger `i` needs no search.
     #[must_use]
     pub fn is_direct(&self, i: u32) -> bool {
         self.frame.is_direct(i)

@@ -4,23 +4,23 @@ use crate::error::{ScheduleError, tried};
 use crate::inverse::Inverse;
 use crate::trigger::ticks::Ticks;
 
-/// The ticks at which a pulse goes on and off, counted from the start of opening.
+/// The ticks at which a pulse starts and ends. They count from [`open_start`](crate::ShutterCurve::open_start).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pulse {
-    /// When it goes on.
+    /// The tick at which the lamp goes on.
     pub on: u32,
-    /// When it goes off.
+    /// The tick at which the lamp goes off.
     pub off: u32,
 }
 
-/// A lamp's limits on its pulses, in ticks; 0 is no limit.
+/// The shortest pulse and gap that a lamp allows, in ticks. 0 allows any.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PulseLimits {
-    /// The least length of a pulse.
+    /// The minimum length of a pulse.
     pub min_pulse: u32,
-    /// The least gap from the end of a pulse to the start of the next.
+    /// The minimum time from the end of a pulse to the start of the next.
     pub min_gap: u32,
 }
 

@@ -25,7 +25,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
             return Err(ScheduleError::TickRateZero);
         }
         if n > MOST_TRIGGERS {
-            return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
+            return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
         }
         let (start, exponent) = (inverse.end_units(Side::Start), inverse.unit_exponent());
         let length = (inverse.end_units(Side::End) - start) as u64;
@@ -90,7 +90,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     }
 
     /// How many triggers, up to `n`, keep a gap.
-    pub(crate) const fn most_triggers(mut self, min_gap: u32, guess: u32) -> u32 {
+    pub(crate) const fn max_triggers(mut self, min_gap: u32, guess: u32) -> u32 {
         let wanted = self.n;
         if wanted <= 1 || min_gap == 0 {
             return wanted;
@@ -136,13 +136,13 @@ const fn exponent_of_ticks(length: u64, timer_hz: u32, exponent: i32) -> i32 {
 #[cold]
 #[inline(never)]
 const fn too_high(length: u64, timer_hz: u32, exponent: i32) -> ScheduleError {
-    let (mut most, mut fail) = (0, timer_hz);
-    while fail - most > 1 {
-        let middle = most + (fail - most) / 2;
+    let (mut max, mut fail) = (0, timer_hz);
+    while fail - max > 1 {
+        let middle = max + (fail - max) / 2;
         let fits = exponent_of_ticks(length, middle, exponent) <= TICK_BITS;
-        *(if fits { &mut most } else { &mut fail }) = middle;
+        *(if fits { &mut max } else { &mut fail }) = middle;
     }
-    ScheduleError::TickRateTooHigh { most }
+    ScheduleError::TickRateTooHigh { max }
 }
 
 /// From times in units to ticks, in fixed point.

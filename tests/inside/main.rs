@@ -41,6 +41,6 @@ mod units;
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
 pub use search::MAX_EVALUATIONS;
-pub use shutter::{ShutterCurve, valid};
+pub use shutter::{ShutterCurve, expect_valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
 pub use trigger::pulse::{Pulse, PulseLimits};

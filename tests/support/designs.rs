@@ -30,27 +30,27 @@ const fn family(name: &'static str, designs: u64, draw: fn(&mut Rng) -> Curve) -
 }
 
 pub const DESIGNS: [Family; 8] = [
-    family("whole ms", 90, |rng| {
+    family("whole ms", 45, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         shutter_of(rng, lengths, ramp, 1.0)
     }),
-    family("ms in s", 75, |rng| {
+    family("ms in s", 40, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         shutter_of(rng, lengths, ramp, 1000.0)
     }),
-    family("decimal fractions of the interval", 75, decimal),
+    family("decimal fractions of the interval", 40, decimal),
     // From either side.
-    family("joins at k/2^m", 110, |rng| {
+    family("joins at k/2^m", 55, |rng| {
         let all = exp2(1 + rng.below(6) as i32);
         joined_at(rng, all)
     }),
-    family("joins at k/3, k/5, k/10", 90, |rng| {
+    family("joins at k/3, k/5, k/10", 45, |rng| {
         let all = [3.0, 5.0, 10.0, 6.0, 7.0, 9.0, 12.0, 20.0, 100.0][rng.below(9) as usize];
         joined_at(rng, all)
     }),
     Family {
         all_octaves: true,
-        ..family("joins at any, handles to the end", 15, |rng| {
+        ..family("joins at any, handles to the end", 8, |rng| {
             let all = [2.0, 4.0, 8.0, 16.0, 32.0, 3.0, 5.0, 10.0][rng.below(8) as usize];
             let part = whole(rng, 1, all as u64 - 1);
             let lengths = lengths(rng, part, all);
@@ -58,7 +58,7 @@ pub const DESIGNS: [Family; 8] = [
         })
     },
     // Far from time 0, and shutters that are never dark, in tenths.
-    family("other units and levels", 65, |rng| {
+    family("other units and levels", 33, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         let units = [1e-3, 1e-6, 1e-9, 1e6, 60.0, 3600.0, 3.0, 7.0][rng.below(8) as usize];
         let shapes: fn(&mut Rng, f64) -> Shape = if rng.chance(0.5) { ramp } else { symmetric };
@@ -74,7 +74,7 @@ pub const DESIGNS: [Family; 8] = [
         settled(Curve { opening, closing })
     }),
     // In thousandths, and ramps across it.
-    family("joins next to time 0", 60, |rng| {
+    family("joins next to time 0", 30, |rng| {
         let mut decimal = |most| 0.001 * whole(rng, 1, most);
         let (open, join, end) = (decimal(4000), decimal(4000), decimal(6000));
         let plateau = [0.0, 0.0, join, 0.001][rng.below(4) as usize];

@@ -8,7 +8,7 @@ pub mod designs;
 pub mod oracle;
 pub mod promise;
 
-/// How many times as many random curves are tried: `TIMES=4` before a command, as CI has it.
+/// How many times as many random curves are tried: `TIMES=8` before a command, as CI has it.
 pub fn times() -> u64 {
     std::env::var("TIMES").map_or(1, |times| times.parse().expect("a whole number"))
 }

@@ -553,8 +553,9 @@ impl fmt::Display for Figures {
         }
         write!(
             out,
-            "backward error {backward:.3} ulp ({direct:.3} without a search), {evaluations} evaluations, cdf {cdf:.3} ulp ({small_cdf:.3} without a floor), \
-             density {density:.3} ulp, exposure {scalar:.3} ulp, {ticks:.3} ticks; {samples} samples and {pairs} pairs on {curves} curves"
+            "backward error {backward:.3} ulp ({direct:.3} without a search), {evaluations} evaluations, cdf {cdf:.3} \
+             ulp ({small_cdf:.3} without a floor), density {density:.3} ulp, exposure {scalar:.3} ulp, {ticks:.3} \
+             ticks; {samples} samples and {pairs} pairs on {curves} curves"
         )
     }
 }

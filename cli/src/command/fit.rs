@@ -1,14 +1,13 @@
 //! `shutter fit`: a measured trace in, the simplest shutter that serves out, as a scene.
 
-use std::io::Write;
+use std::io::{IsTerminal, Write, stderr};
 use std::iter::once;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use shutter_fit::trace::{self, Column, Light, Refusal, Warning};
+use shutter_fit::trace::{self, Column, Light, Refusal, Tell, Warning};
 use shutter_fit::unit::{Unit, count, short};
 use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
 
@@ -183,7 +182,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let read: Vec<Read> = read.collect::<Result<_, _>>()?;
     let records = read.iter().map(|it| {
         Record::new(&it.trace, &it.options)
-            .map_err(|refusal| format!("{}: {refusal}; read: {}", shown(it.path), it.reading))
+            .map_err(|refusal| format!("{}: {}; read: {}", shown(it.path), refusal.with_option(), it.reading))
     });
     let records: Vec<Record> = records.collect::<Result<_, _>>()?;
     let is_one = is_one_setting(args, &read, &records, scenes.len())?;
@@ -204,7 +203,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let mut told = String::new();
     for Speed { name, warnings: of, .. } in &speeds {
         let whose = if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
-        told.extend(of.iter().map(|warning| format!("warning: {whose}{warning}\n")));
+        told.extend(of.iter().map(|warning| format!("warning: {whose}{}\n", warning.with_option())));
     }
     told += &said.kept;
     let report = match (args.report, speeds.as_slice()) {
@@ -247,7 +246,7 @@ fn sensors(
         let (how, options) = one.asked();
         let read = Read::new(&args.trace, &how, &options, sync)?;
         let refused = |reason| format!("{}: column {signal}: {reason}", shown(&args.trace));
-        let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.to_string()))?;
+        let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.with_option()))?;
         let Speed { fit, warnings, .. } = measure(&[read], &[record], args.triggers).map_err(refused)?;
         let here = fit.frames.count;
         let first = all.first().map_or(here, |first| first.fit.frames.count);
@@ -259,7 +258,7 @@ fn sensors(
         }
         let reading = fit.reading.as_ref();
         let name = reading.and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
-        warnings.iter().for_each(|warning| told += &format!("warning: {name}: {warning}\n"));
+        told.extend(warnings.iter().map(|warning| format!("warning: {name}: {}\n", warning.with_option())));
         all.push(Speed { name, fit, warnings });
     }
     let report = match args.report {
@@ -337,7 +336,7 @@ fn write(
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
         let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
-            .map_err(|refusal| format!("{name}: {refusal}"))?;
+            .map_err(|refusal| format!("{name}: {}", refusal.with_option()))?;
         let Some(file) = files.get(i) else {
             said.scene = scene.text;
             continue;
@@ -430,7 +429,7 @@ fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<S
     let options = Options { triggers, ..read[0].options.clone() };
     let mut fit = fitted(records, &options).map_err(|refusal| {
         let (path, reading) = (shown(read[0].path) + &more(read.len()), &read[0].reading);
-        format!("{path}: {refusal}; read: {reading}")
+        format!("{path}: {}; read: {reading}", refusal.with_option())
     })?;
     let Read { path, reading, .. } = &read[fit.record];
     fit.reading = Some(reading.clone());
@@ -440,19 +439,18 @@ fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<S
     Ok(Speed { name: file_name(path) + &more(read.len()), fit, warnings })
 }
 
-/// The fit, with a bar for whoever waits for it.
+/// The fit; whoever waits for it sees on a terminal how far it is.
 fn fitted(records: &[Record], options: &Options) -> Result<Fit, Refusal> {
-    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
-    if let Ok(style) = ProgressStyle::with_template("fitting {bar:30} {percent:>3} % {elapsed}") {
-        bar.set_style(style);
-    }
+    let (begun, mut shown) = (Instant::now(), false);
     let mut progress = |done: f64| {
-        if bar.is_hidden() && bar.elapsed() > PATIENCE {
-            bar.set_draw_target(ProgressDrawTarget::stderr());
+        if begun.elapsed() > PATIENCE && stderr().is_terminal() {
+            eprint!("\rfitting {:3.0} %", 100.0 * done);
+            shown = true;
         }
-        bar.set_position((1000.0 * done) as u64);
     };
     let fit = shutter_fit::fit_records(records, options, &mut progress);
-    bar.finish_and_clear();
+    if shown {
+        eprint!("\r             \r");
+    }
     fit
 }

@@ -33,30 +33,3 @@ pub fn below([begin, end]: Comment, text: &str) -> Option<(&str, bool)> {
 fn checksum(text: &str) -> u32 {
     fnv(text.bytes().filter(|byte| *byte != b'\r'))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_mark_holds_until_a_line_is_changed() {
-        // As published with the algorithm.
-        assert_eq!(checksum("foobar"), 0xBF9C_F968);
-        for comment in [TOML, RUST, C, SVG] {
-            let text = marked(comment, "one\ntwo\n");
-            assert!(text.starts_with(comment[0]), "{text}");
-            let below = |text: &str| below(comment, text).map(|(text, holds)| (text.to_string(), holds));
-            let found = |text: &str, holds| Some((text.to_string(), holds));
-            assert_eq!(below(&text), found("one\ntwo\n", true));
-            assert_eq!(below(&format!("\u{feff}{text}")), found("one\ntwo\n", true));
-            assert_eq!(below(&text.replace('\n', "\r\n")), found("one\r\ntwo\r\n", true));
-            assert_eq!(below(&text.replace("two", "too")), found("one\ntoo\n", false));
-            assert_eq!(below(&format!("{text}\n")), found("one\ntwo\n\n", false));
-            // What stands beside a mark is not the program's.
-            assert_eq!(below(&text.replacen('\n', " mine\n", 1)), None);
-            assert_eq!(below(&format!("mine {text}")), None);
-            assert_eq!(below("one\ntwo\n"), None);
-        }
-        assert_eq!(below(RUST, &marked(TOML, "one\n")), None);
-    }
-}

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
-use shutter_fit::trace::{self, Column, Reading, Recording, Trace, Warning};
+use shutter_fit::trace::{self, Column, Reading, Recording, Tell, Trace, Warning};
 use shutter_fit::{Options, Sync};
 
 use super::input::{self, file_name, shown};
@@ -130,14 +130,14 @@ fn open(path: &Path, how: &trace::Options) -> Result<Recording, String> {
             format!("this is a scene, and no trace; `shutter plan {}` takes it", shown(path))
         }
         Some(b'{' | b'[') => "this is JSON; a trace is a table, with a row for each sample".into(),
-        _ => refusal.to_string(),
+        _ => refusal.with_option(),
     })
 }
 
 /// Is the channel of the same record as the light, sample for sample?
 fn same_record(light: &Trace, channel: &Recording) -> Result<(), String> {
     if let Some(choice) = channel.warnings.iter().find(|it| matches!(it, Warning::SecondSignal { .. })) {
-        return Err(format!("a sync's file has one signal, and here {choice}"));
+        return Err(format!("a sync's file has one signal, and here {}", choice.with_option()));
     }
     let (ours, theirs) = (&light.times, &channel.trace.times);
     let [n, m] = [ours.len(), theirs.len()];

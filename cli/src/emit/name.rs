@@ -32,23 +32,3 @@ pub fn shown(text: &str) -> String {
     let is_shown = |c: char| c.is_alphanumeric() || matches!(c, ' ' | '±') || c.is_ascii_graphic() && c != '/';
     text.chars().map(|c| if is_shown(c) { c } else { '_' }).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn any_name_becomes_one_that_a_program_can_have() {
-        for (name, identifier, module) in [
-            ("leaf", "leaf", "leaf"),
-            ("Leaf 2", "leaf_2", "leaf_2"),
-            ("1-250", "shutter_1_250", "shutter_1_250"),
-            ("__box__", "box", "box_"),
-            ("shutter_curve", "shutter_curve", "shutter_curve_"),
-            ("µ / \u{202e}", "shutter", "shutter"),
-            ("", "shutter", "shutter"),
-            ("self", "self", "self_"),
-            ("yield", "yield", "yield_"),
-        ] {
-            assert_eq!((super::identifier(name), super::module(name)), (identifier.into(), module.into()));
-        }
-    }
-}

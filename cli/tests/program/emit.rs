@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 use serde::Deserialize;
 use serde_json::Value;
-use shutter::emit::{Form, emit, several};
+use shutter::emit::{Form, emit, identifier, module, several};
 use shutter::lamp::Lamp;
 use shutter::plan::{Plan, Trigger};
 use shutter::planned::Planned;
@@ -542,6 +542,23 @@ fn curve_is_right(planned: &Planned) {
         numbers.map_while(|it| if it.is_empty() { Some(None) } else { it.parse().ok().map(Some) }).flatten().collect();
     let shape = plan(planned).shape;
     assert_eq!(numbers, [&shape.times[..], shape.inner.as_slice().concat().as_slice()].concat());
+}
+
+#[test]
+fn any_name_becomes_one_that_a_program_can_have() {
+    for (name, of_c, of_rust) in [
+        ("leaf", "leaf", "leaf"),
+        ("Leaf 2", "leaf_2", "leaf_2"),
+        ("1-250", "shutter_1_250", "shutter_1_250"),
+        ("__box__", "box", "box_"),
+        ("shutter_curve", "shutter_curve", "shutter_curve_"),
+        ("µ / \u{202e}", "shutter", "shutter"),
+        ("", "shutter", "shutter"),
+        ("self", "self", "self_"),
+        ("yield", "yield", "yield_"),
+    ] {
+        assert_eq!((identifier(name), module(name)), (of_c.into(), of_rust.into()));
+    }
 }
 
 /// A name comes from a file, and files have names of any kind.

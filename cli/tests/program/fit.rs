@@ -7,8 +7,9 @@ use std::fs;
 use serde_json::Value;
 use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
-use shutter_fit::trace::{self, Light, Recording, Refusal, Trace, Warning};
+use shutter_fit::trace::{self, Light, Recording, Refusal, Tell, Trace, Warning};
 use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit};
+use strum::IntoEnumIterator;
 
 use crate::generator::{Disturbance, Random, SHUTTERS, Shutter, Truth, bezier, each, traced, truth};
 use crate::refusals::MEASURED;
@@ -457,7 +458,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
         ("1,2,3\n".repeat(100).into(), "no column holds times"),
         (timed("NaN").into(), "100 of 100 rows"),
         (timed("1e308").into(), "beyond"),
-        ("0.5\n".repeat(100).into(), "--rate"),
+        ("0.5\n".repeat(100).into(), "give the sampling rate"),
     ] {
         let said = refused(&bytes);
         assert!(said.contains(reason), "{reason}: {said}");
@@ -540,15 +541,18 @@ fn what_the_program_refuses_leaves_nothing_behind() {
         ("trace.json", "this is JSON; a trace is a table"),
         ("good.csv --columns time_ms,w", "no column 'w'; there are 2: time_ms, v"),
         ("good.csv --frame 3", "no frame 3; the trace has 1 whole frame"),
-        ("good.csv --full -3", "--full -3"),
+        (
+            "good.csv --full -3",
+            "full light, -3; that is given in the trace's own unit, the dark level included (--full)",
+        ),
         ("good.csv --triggers 0", "--triggers"),
         ("good.csv --rate 0", "above 0"),
         ("good.csv --tolerance 5", "0.1% (of the exposure)"),
         ("good.csv --tolerance -1%", "--tolerance"),
         ("good.csv --model spline", "spline"),
-        ("good.csv --sync 5", "--sync: there is no column '5'; there are 2: time_ms, v;"),
+        ("good.csv --sync 5", "no delay: there is no column '5'; there are 2: time_ms, v;"),
         ("good.csv --sync infs", "a time has a unit, as in 1.5ms"),
-        ("good.csv --sync 1s", "--sync: the shutter opens "),
+        ("good.csv --sync 1s", "no delay: the shutter opens "),
         ("good.csv --nominal=fast", "write a speed as in 1/250, 4ms, 2s"),
         ("good.csv --nominal=1/0", "write a speed as in 1/250, 4ms, 2s"),
         ("good.csv --nominal=-4ms", "write a speed as in 1/250, 4ms, 2s"),
@@ -608,7 +612,7 @@ fn the_delay_from_the_sync_is_measured() {
     two.times.extend(one.times.iter().map(|t| t + 0.01212));
     two.values.extend(&one.values);
     folder.write("two.csv", csv(&two));
-    let reason = "--sync: the edge of the sync is followed by pulse 1 first: --frame 1";
+    let reason = "the edge of the sync is followed by pulse 1 first, and another one is fitted (--frame)";
     folder.refuses(&[("fit two.csv --frame 2 --sync 0", reason)]);
     folder.run("fit two.csv --frame 1 --sync 0").well();
     folder.run("fit two.csv --frame 2 --sync 0.012s").well();
@@ -810,4 +814,15 @@ fn tails_are_looked_at_to_their_end() {
         "{:?}",
         fit.warnings
     );
+}
+
+#[test]
+fn what_mends_is_an_option_of_the_program() {
+    let help = Folder::new("mends").run("fit --help").quietly();
+    let refusals: Vec<_> = Refusal::iter().collect();
+    let warnings: Vec<_> = Warning::iter().collect();
+    let remedies = refusals.iter().filter_map(Tell::remedy).chain(warnings.iter().filter_map(Tell::remedy));
+    for option in remedies.map(|it| it.option()) {
+        assert!(help.contains(&format!(" --{option} ")), "{option}");
+    }
 }

@@ -120,26 +120,40 @@ fn a_file_of_something_else_needs_force() {
             true => drop(run(&folder, &other).well()),
             false => refuses(&folder, &[(&other, "a table does not tell whose")]),
         }
-        let edited = folder.text(&file) + "\n";
-        folder.write(&file, &edited);
-        let reason = if has_mark { "you have changed it since" } else { "--force" };
-        refuses(&folder, &[(&line, reason)]);
-        assert_eq!(run(&folder, &format!("{line} --force")).well().err, wrote);
-        assert_ne!(folder.text(&file), edited);
+        let text = folder.text(&file);
+        let changed = if has_mark { "you have changed it since" } else { "--force" };
+        for (edited, reason) in [
+            (format!("{text}\n"), changed),
+            (text.replace("soft", "hard"), changed),
+            // A remark beside the mark is its user's.
+            (text.replacen('\n', " for board 7\n", 1), "--force"),
+            (format!("mine {text}"), "--force"),
+        ] {
+            folder.write(&file, edited);
+            refuses(&folder, &[(&line, reason)]);
+        }
+        // Editors may do these.
+        for edited in [format!("\u{feff}{text}"), text.replace('\n', "\r\n")] {
+            folder.write(&file, &edited);
+            let line = if has_mark { line.clone() } else { format!("{line} --force") };
+            assert_eq!(run(&folder, &line).well().err, wrote);
+            assert_ne!(folder.text(&file), edited);
+        }
     }
+    // The checksum of older versions, as it is published with the algorithm.
+    folder.write("old.h", "/* Checksum bf9cf968 of the lines below: `shutter` replaces them while it holds */\nfoobar");
+    run(&folder, "plan --emit c --to old.h").well();
     for _ in 0..2 {
         run(&folder, "plan --out made.svg --set-ups both.svg").well();
     }
     run(&folder, "fit trace.csv --picture made.svg").well();
     folder.write("made.svg", folder.text("made.svg").replace("<svg ", "<svg  "));
-    // A remark beside the mark is its user's, and a scene holds what its user wrote whether or not its mark does.
-    folder.write("made.rust", folder.text("made.rust").replacen('\n', " for board 7\n", 1));
+    // A scene holds what its user wrote whether or not its mark does.
     run(&folder, "fit trace.csv --out leaf.toml").well();
     refuses(
         &folder,
         &[
             ("fit trace.csv --picture made.svg", "you have changed it since"),
-            ("plan --emit rust --to made.rust", "--force"),
             ("plan --emit rust --to leaf.toml", "--force"),
         ],
     );
@@ -166,7 +180,7 @@ fn a_fit_is_not_lost_with_its_files() {
     folder.write("ns.csv", leaf(1.0).replace("time_ms", "time_ns"));
     for (args, reason) in [
         ("fit trace.csv --out leaf.toml", "with what it keeps"),
-        ("fit ns.csv --out ns.toml", "; --triggers says how many"),
+        ("fit ns.csv --out ns.toml", "ask for fewer triggers (--triggers)"),
     ] {
         refuses(&folder, &[(args, reason)]);
         assert!(run(&folder, args).out.contains("\nexposure     5.00"), "{args}");

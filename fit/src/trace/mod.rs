@@ -33,4 +33,4 @@ pub use samples::Trace;
 pub(crate) use samples::{median, sampling_interval};
 pub use times::Timing;
 pub(crate) use told::from_opening;
-pub use told::{Refusal, Warning};
+pub use told::{Refusal, Remedy, Tell, Warning};

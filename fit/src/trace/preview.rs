@@ -1,5 +1,7 @@
 //! The first lines of a file as a table, so that whoever reads it can say which column is which.
 
+use serde::Serialize;
+
 use super::bytes::decode;
 use super::numbers::split;
 use super::table::Table;
@@ -7,7 +9,7 @@ use super::told::Refusal;
 use super::wav;
 
 /// What a file begins with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Preview {
     /// The columns' names, as far as they have some; there are as many as columns.
     pub names: Vec<Option<String>>,

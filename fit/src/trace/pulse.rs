@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use serde::Deserialize;
+
 use super::samples::{CONTRAST, LARGEST, Trace, median, range, sampling_interval};
 use super::told::{Refusal, Warning};
 
@@ -39,8 +41,9 @@ const UNDERSHOOT: f64 = 0.1;
 const STRAY: f64 = 5.0;
 
 /// Which way light moves the signal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
 pub enum Light {
     /// The trace begins and ends in the dark.
     #[default]

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use super::samples::Trace;
 use super::times::Timing;
 use super::told::Warning;
@@ -11,7 +13,7 @@ use crate::unit::{Unit, short};
 pub type Named = (usize, Option<String>);
 
 /// What was read of a file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reading {
     /// So many columns, or channels, the file has.
     pub columns: usize,
@@ -34,7 +36,8 @@ pub struct Reading {
 }
 
 /// How the time of a row is known.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Clock {
     /// The row holds it, in this unit.
     Unit(Unit),
@@ -43,7 +46,7 @@ pub enum Clock {
 }
 
 /// Who tells the unit or the rate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Told {
     /// The column's name.
     Name,

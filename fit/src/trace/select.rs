@@ -34,7 +34,7 @@ fn is_gate(trace: &Trace) -> bool {
 }
 
 /// The column that holds a pulse of light, by its place, and its samples; of several, the first. The others are told,
-/// as `name` has them, with the option that chooses them.
+/// as `name` has them, with the columns that choose them.
 pub fn light_among(
     mut all: Vec<(usize, Result<Samples, Refusal>)>,
     name: impl Fn(usize) -> String,
@@ -50,7 +50,7 @@ pub fn light_among(
         warnings.push(Warning::SecondSignal {
             taken: name(all[taken].0),
             other: name(all[other].0),
-            option: format!("--columns {choice}{}", all[other].0 + 1),
+            columns: format!("{choice}{}", all[other].0 + 1),
         });
     }
     let (column, samples) = all.swap_remove(taken);

@@ -1,16 +1,20 @@
-//! Why a trace is refused, and what is doubtful about one that is not: the reason, and what to do.
+//! Why a trace is refused, and what is doubtful about one that is not: the reason, what to do, and the setting that
+//! does it, which the program and a page each have under a name of their own.
 //!
 //! Each message stands above the values that it tells: times in seconds, rates in hertz, signals in the trace's own
 //! unit, amounts as shares of the light. Lines, frames and pulses count from 1.
 
-use strum::{EnumIter, IntoStaticStr};
+use std::fmt::Display;
+
+use serde::Serialize;
 use thiserror::Error;
 
 use super::samples::{CONTRAST, LARGEST};
 use crate::unit::{self, short};
 
 /// Why a trace cannot be fitted.
-#[derive(Clone, Debug, EnumIter, Error, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
+#[cfg_attr(feature = "strum", derive(strum::EnumIter))]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
 pub enum Refusal {
@@ -21,35 +25,36 @@ pub enum Refusal {
     NotCsv { reason: String },
     /// No column of times, and no rate; with what may be one of them, but is not read.
     #[error(
-        "no column holds times (the columns of numbers are {columns}{}), {}; {RATE}",
+        "no column holds times (the columns of numbers are {columns}{}), {}; give the sampling rate in hertz",
         no_number(.text),
         no_rate(.quoted)
     )]
     NoTimes { columns: String, text: Option<String>, quoted: Option<String> },
     #[error(
-        "column {name} counts without a unit, so it is no time, {}; {RATE}, or the unit with --unit if it is one",
+        "column {name} counts without a unit, so it is no time, {}; give the sampling rate in hertz, or the unit if it \
+         is one",
         no_rate(.quoted)
     )]
     Counter { name: String, quoted: Option<String> },
     #[error(
-        "'{name}' above the times is more than a unit, or one that is not read; give the unit with --unit us, ms or s, \
-         or the sampling rate in hertz, as in --rate 100000"
+        "'{name}' above the times is more than a unit, or one that is not read; give the unit, or the sampling rate in \
+         hertz"
     )]
     UnclearUnit { name: String },
-    #[error("column {name} is asked for twice; see --columns")]
+    #[error("column {name} is asked for twice")]
     SameColumn { name: String },
     #[error("line {line}: '{text}' between the rows begins another recording; put each into a file of its own")]
     Blocks { line: u64, text: String },
-    #[error("'{first}' and '{second}' above the numbers tell different rates; give the right one, as in --rate 100000")]
+    #[error("'{first}' and '{second}' above the numbers tell different rates; give the right one")]
     TwoRates { first: String, second: String },
     /// A number with a comma, beside another with a point or alone.
     #[error("{}", thousands(.number, .other))]
     Thousands { number: String, other: String },
-    #[error("there is no column '{name}'; there are {there}; see --columns")]
+    #[error("there is no column '{name}'; there are {there}")]
     NoColumn { name: String, there: String },
     #[error(
         "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out; is this the file, and are \
-         --columns right? Read: {reading}"
+         these its columns? Read: {reading}"
     )]
     BrokenRows { count: usize, rows: usize, line: u64, reason: String, reading: String },
     /// Times and values that no file gives: not as many, not finite or beyond 10³⁰, or out of order.
@@ -58,8 +63,8 @@ pub enum Refusal {
     #[error("{} in the trace, and at least {required} are required; sample faster", counted(.samples, "sample"))]
     TooFewSamples { samples: usize, required: usize },
     #[error(
-        "no pulse: the brightest part stands out by {contrast:.1} times the noise, and {CONTRAST} are required; is \
-         this the right channel (--columns), and was the light on?"
+        "no pulse: the brightest part stands out by {contrast:.1} times the noise, and {CONTRAST} are required; was \
+         the light on, and is this the right channel?"
     )]
     NoPulse { contrast: f64 },
     #[error(
@@ -83,14 +88,14 @@ pub enum Refusal {
     /// Light raises the signal and pulses are cut, or it lowers it.
     #[error(
         "the trace begins or ends in its higher level, which may be the dark, or a pulse that is cut off; say which way \
-         light moves the signal (--light up or --light down)"
+         light moves the signal"
     )]
     WhichWay,
     #[error("there is no frame {number}; the trace has {}", counted(.frames, "whole frame"))]
     NoFrame { number: usize, frames: usize },
     #[error(
-        "--full {given}: the trace reaches {seen:.4}, more than the signal of full light; it is given in the trace's \
-         own unit, the dark level included"
+        "the trace reaches {seen:.4}, more than the signal of full light, {given}; that is given in the trace's own \
+         unit, the dark level included"
     )]
     FullTooLow { given: f64, seen: f64 },
     #[error(
@@ -100,8 +105,10 @@ pub enum Refusal {
     )]
     LostRamp { from: f64, to: f64 },
     /// No delay can be told from the edge of the camera's sync.
-    #[error("--sync: {reason}")]
+    #[error("the sync tells no delay: {reason}")]
     NoDelay { reason: String },
+    #[error("the edge of the sync is followed by pulse {first} first, and another one is fitted")]
+    OtherPulse { first: usize },
     /// The samples leave open what the shutter does: a result is no finite number.
     #[error(
         "the samples do not tell what the shutter does; look at the trace: is there one rise, one plateau at most, one \
@@ -111,16 +118,13 @@ pub enum Refusal {
     #[error(
         "no scene can be made of this: {reason}; {}",
         if *.crowded {
-            "--triggers says how many"
+            "ask for fewer triggers"
         } else {
             "look at the trace: is there one rise, one plateau at most, one fall?"
         }
     )]
     NoScene { reason: String, crowded: bool },
 }
-
-/// What helps where a file does not tell its times.
-const RATE: &str = "give the sampling rate in hertz, as in --rate 100000";
 
 fn no_number(text: &Option<String>) -> String {
     text.as_ref().map_or(String::new(), |text| format!("; '{text}' beside them is no number"))
@@ -147,10 +151,11 @@ fn either(first: &bool, second: &bool, one: &str, other: &str) -> String {
 }
 
 /// What is doubtful about a trace or about what was made of it. A variant's name in snake case is its code.
-#[derive(Clone, Debug, EnumIter, Error, IntoStaticStr, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq, Serialize)]
+#[cfg_attr(feature = "strum", derive(strum::EnumIter))]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
-#[strum(serialize_all = "snake_case")]
+#[serde(rename_all = "snake_case")]
 pub enum Warning {
     #[error("line {line}: {reason}; {} left out", such_rows(.count))]
     BrokenRows { count: usize, line: u64, reason: String },
@@ -174,10 +179,10 @@ pub enum Warning {
          ramp shows"
     )]
     Changes,
-    #[error("the file does not say in which unit its times are; they are taken as seconds (see --unit)")]
+    #[error("the file does not say in which unit its times are; they are taken as seconds")]
     UnitAssumed,
-    #[error("two columns hold a pulse: {taken} is taken for the light, and {other} is not ({option} takes that)")]
-    SecondSignal { taken: String, other: String, option: String },
+    #[error("two columns hold a pulse: {taken} is taken for the light, and {other} is not")]
+    SecondSignal { taken: String, other: String, columns: String },
     #[error(
         "line {line}: the value is infinite; {} of the instrument {} taken as clipped, so the exposure may come out \
          wrong; choose a larger range",
@@ -226,14 +231,13 @@ pub enum Warning {
     #[error("{} left out: with less than a fifth of the light of the largest pulse", counted(.count, "small pulse"))]
     Glitches { count: usize },
     #[error(
-        "pulse {number} of the trace has too little dark beside it, and is left out; --frame counts those that are \
-         whole"
+        "pulse {number} of the trace has too little dark beside it, and is left out; those that are whole are \
+         counted"
     )]
     PartialFrame { number: usize },
     /// The exposures of the shots differ by more than a shutter's own scatter: standard deviation over mean.
     #[error(
-        "the exposures of the shots scatter by {}, so they are not of one setting; only one of them was fitted \
-         (--frame chooses which)",
+        "the exposures of the shots scatter by {}, so they are not of one setting; only one of them was fitted",
         percent(.scatter)
     )]
     ShotsDiffer { scatter: f64 },
@@ -248,7 +252,7 @@ pub enum Warning {
         "the recorder is coupled by a capacitor (AC), with a time constant of {}; that is undone; couple it for DC",
         time(.seconds)
     )]
-    #[strum(serialize = "ac_coupled")]
+    #[serde(rename = "ac_coupled")]
     Coupled { seconds: f64 },
     #[error(
         "the signal goes {} of the light to the other side of the dark, which light does not do: a recorder that is \
@@ -277,7 +281,7 @@ pub enum Warning {
     Flicker { hertz: f64, amplitude: f64 },
     #[error(
         "light seems to lower the signal, so it is turned round; if it does not, the trace begins and ends in the \
-         light (--light up)"
+         light"
     )]
     Inverted,
     /// The brightest samples, a share of the pulse's, are all the same.
@@ -300,7 +304,7 @@ pub enum Warning {
         "hum of {:.2} % of the light, taken out at {}, of which the dark and the pulse hold {periods:.1} periods: a drift \
          or the shutter's own shape may pass for it; run it all on batteries, or record more dark",
         100.0 * amplitude,
-        mains(*.hertz, *.is_known)
+        format!("{} Hz", short(*hertz, if *.is_known { 4 } else { 2 }))
     )]
     ShortHum { hertz: f64, amplitude: f64, periods: f64, is_known: bool },
     #[error("the dark level drifts by {:.2} % of the light over the samples that are fitted, and is taken out", 100.0 * amount)]
@@ -309,7 +313,7 @@ pub enum Warning {
         "noise of {:.1} % of the light hides the ramps' shape; average several shots, or use more light",
         100.0 * noise
     )]
-    #[strum(serialize = "noise")]
+    #[serde(rename = "noise")]
     NoiseHidesRamps { noise: f64 },
     #[error(
         "edges within two samples: each is known to {} at best (the sampling interval by the root of 12); sample \
@@ -319,7 +323,7 @@ pub enum Warning {
     SharpEdges { step: f64 },
     #[error(
         "there is no plateau to speak of: the shutter may never open fully; the peak counts as full light, unless the \
-         signal of full light is given (--full)"
+         signal of full light is given"
     )]
     NoPlateau,
     /// A large standard error, the largest, as a share of the exposure.
@@ -356,7 +360,7 @@ pub enum Warning {
     /// after the opening; are exposure and triggers the trace's own?
     #[error(
         "the trace has structure that the model has not: {} of the light, {}; exposure and triggers are {}; look at \
-         --picture",
+         the residual",
         percent(&share.abs()),
         from_opening(*.after),
         if *.by_trace {
@@ -370,17 +374,94 @@ pub enum Warning {
         "there is too little dark beside the pulse to tell whether the model explains the trace; record more of it"
     )]
     Untested,
-    #[error(
-        "the trace's times are too far from 0 for the scene's numbers; time 0 is where the shutter starts to open, as \
-         with --zero open"
-    )]
+    #[error("the trace's times are too far from 0 for the scene's numbers; time 0 is where the shutter starts to open")]
     ZeroMoved,
+}
+
+/// The setting that mends what is refused or doubtful.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "as the program's options are called")]
+#[serde(rename_all = "snake_case")]
+pub enum Remedy<'a> {
+    Rate,
+    Unit,
+    /// The columns to ask for, if they are known.
+    Columns(&'a str),
+    Light,
+    Full,
+    Frame,
+    Mains,
+    Sync,
+    Triggers,
+    Picture,
+}
+
+impl Remedy<'_> {
+    /// The option's name.
+    pub fn option(&self) -> &'static str {
+        serde_variant::to_variant_name(self).unwrap_or_default()
+    }
+}
+
+/// What is told of a trace.
+pub trait Tell: Display {
+    /// The setting that mends it, if there is one.
+    fn remedy(&self) -> Option<Remedy<'_>>;
+
+    /// As the program tells it, with its option.
+    fn with_option(&self) -> String {
+        let Some(remedy) = self.remedy() else { return self.to_string() };
+        let value = match remedy {
+            Remedy::Rate => "100000",
+            Remedy::Unit => "us, ms or s",
+            Remedy::Columns(columns) => columns,
+            Remedy::Light => "up or down",
+            Remedy::Mains => "50 or 60",
+            _ => "",
+        };
+        let option = format!("--{} {value}", remedy.option());
+        format!("{self} ({})", option.trim_end())
+    }
+}
+
+impl Tell for Refusal {
+    fn remedy(&self) -> Option<Remedy<'_>> {
+        use Remedy as M;
+        Some(match self {
+            Self::NoTimes { .. } | Self::Counter { .. } | Self::TwoRates { .. } => M::Rate,
+            Self::UnclearUnit { .. } => M::Unit,
+            Self::SameColumn { .. } | Self::NoColumn { .. } | Self::BrokenRows { .. } => M::Columns(""),
+            Self::NoPulse { .. } | Self::Undetermined => M::Columns(""),
+            Self::WhichWay => M::Light,
+            Self::NoFrame { .. } | Self::OtherPulse { .. } => M::Frame,
+            Self::FullTooLow { .. } => M::Full,
+            Self::NoDelay { .. } => M::Sync,
+            Self::NoScene { crowded: true, .. } => M::Triggers,
+            _ => return None,
+        })
+    }
+}
+
+impl Tell for Warning {
+    fn remedy(&self) -> Option<Remedy<'_>> {
+        use Remedy as M;
+        Some(match self {
+            Self::UnitAssumed => M::Unit,
+            Self::SecondSignal { columns, .. } => M::Columns(columns),
+            Self::ShotsDiffer { .. } | Self::PartialFrame { .. } => M::Frame,
+            Self::Inverted => M::Light,
+            Self::ShortHum { is_known: false, .. } => M::Mains,
+            Self::NoPlateau => M::Full,
+            Self::Misfit { .. } => M::Picture,
+            _ => return None,
+        })
+    }
 }
 
 impl Warning {
     /// A name that a program can ask for: it stays as it is.
     pub fn code(&self) -> &'static str {
-        self.into()
+        serde_variant::to_variant_name(self).unwrap_or_default()
     }
 
     /// Adds those of others that are not told yet.
@@ -407,13 +488,6 @@ fn time(seconds: &f64) -> String {
 
 fn percent(share: &f64) -> String {
     format!("{} %", short(100.0 * share, 2))
-}
-
-fn mains(hertz: f64, is_known: bool) -> String {
-    match is_known {
-        true => format!("{} Hz", short(hertz, 4)),
-        false => format!("{} Hz (--mains 50 or 60 says which)", short(hertz, 2)),
-    }
 }
 
 fn counted(n: &usize, thing: &str) -> String {

@@ -5,7 +5,7 @@
 
 use std::sync::LazyLock;
 
-use shutter_fit::trace::{self, Column, Refusal, Trace, open};
+use shutter_fit::trace::{self, Column, Refusal, Tell, Trace, open};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Options, Record, fit};
 
@@ -276,7 +276,7 @@ fn read(text: &str, options: &trace::Options) -> Read {
 }
 
 fn read_by(text: &str, options: &trace::Options, exposure: impl Fn(&Trace) -> Result<f64, Refusal>) -> Read {
-    let recording = open(text.as_bytes(), options).map_err(|refusal| refusal.to_string())?;
+    let recording = open(text.as_bytes(), options).map_err(|refusal| refusal.with_option())?;
     let exposure = exposure(&recording.trace);
     let exposure = exposure.map_err(|refusal| format!("{refusal}; read: {}", recording.reading))?;
     let codes: Vec<&str> = recording.warnings.iter().map(|warning| warning.code()).collect();

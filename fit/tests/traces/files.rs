@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use shutter_fit::trace::{self, Column, Recording, Warning, open};
+use shutter_fit::trace::{self, Column, Recording, Tell, Warning, open};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Fit, Kind, Options, Sync, fit};
 use strum::IntoEnumIterator;
@@ -22,9 +22,9 @@ fn with(above: &str, row: impl Fn(usize, f64, f64) -> String) -> String {
 }
 
 fn read(bytes: &[u8], options: &trace::Options) -> Result<(Recording, f64), String> {
-    let recording = open(bytes, options).map_err(|refusal| refusal.to_string())?;
+    let recording = open(bytes, options).map_err(|refusal| refusal.with_option())?;
     let fit = fit(&recording.trace, &Options::default(), &mut |_| ());
-    let exposure = fit.map_err(|refusal| refusal.to_string())?.exposure.value;
+    let exposure = fit.map_err(|refusal| refusal.with_option())?.exposure.value;
     Ok((recording, exposure))
 }
 
@@ -47,12 +47,12 @@ fn of_two_signals_the_light_is_taken_and_the_other_named() {
         let text = names.to_string() + &rows(row);
         let (recording, exposure) = read(text.as_bytes(), &trace::Options::default()).unwrap();
         assert!((exposure / 0.005 - 1.0).abs() < 1e-3, "{exposure}");
-        let [Warning::SecondSignal { taken, other, option }] = &recording.warnings[..] else {
+        let [Warning::SecondSignal { taken, other, columns }] = &recording.warnings[..] else {
             panic!("{:?}", recording.warnings);
         };
         assert!(taken.starts_with("column 3") && other.starts_with("column 2"), "{taken} {other}");
-        assert_eq!(option, "--columns 1,2");
-        // And that option takes it, without a word.
+        assert_eq!(columns, "1,2");
+        // And those take it, without a word.
         let columns = vec![Column::Number(1), Column::Number(2)];
         let asked = trace::Options { columns, ..Default::default() };
         let (recording, exposure) = read(text.as_bytes(), &asked).unwrap();
@@ -234,7 +234,7 @@ fn pulses_that_are_left_out_are_said() {
     let said: Vec<String> = fit.warnings.iter().map(Warning::to_string).collect();
     let left_out = |number: usize| {
         format!(
-            "pulse {number} of the trace has too little dark beside it, and is left out; --frame counts those that are whole"
+            "pulse {number} of the trace has too little dark beside it, and is left out; those that are whole are counted"
         )
     };
     let spark = "1 small pulse left out: with less than a fifth of the light of the largest pulse";

@@ -173,7 +173,7 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
             hash.add(ticks.into_iter().flatten());
             let planned = hash.made(curve.ticks_vec::<64>(n, hz, gap));
             hash.add(planned.iter().flatten());
-            let most = hash.made(curve.most_triggers(n, hz, gap));
+            let most = hash.made(curve.max_triggers(n, hz, gap));
             hash.add(most);
         }
     }

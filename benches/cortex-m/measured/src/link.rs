@@ -1,6 +1,6 @@
 //! What must link without a panic: every public function with inputs that the compiler knows nothing of.
 //!
-//! Left out are `valid`, which exists to panic in a constant, and `Debug`, `Display` and `defmt::Format`: core's
+//! Left out are `expect_valid`, which exists to panic in a constant, and `Debug`, `Display` and `defmt::Format`: core's
 //! formatting has panics of its own.
 
 use core::hint::black_box;

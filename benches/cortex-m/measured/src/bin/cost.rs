@@ -13,7 +13,7 @@ use core::mem::MaybeUninit;
 use measured::baseline::{InverseTable, NearerEnd, StraightRamps, TextbookNewton};
 use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL};
 use micromath::F32Ext;
-use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, valid};
+use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, expect_valid};
 
 #[path = "../machine.rs"]
 mod machine;
@@ -46,7 +46,7 @@ macro_rules! each_static {
     ($($i:literal)*) => { [$({
         static CURVE: ShutterCurve = {
             let measured::Curve { opening, closing, .. } = CURVES[$i];
-            valid(ShutterCurve::new(CubicBezier::new(opening), CubicBezier::new(closing)))
+            expect_valid(ShutterCurve::new(CubicBezier::new(opening), CubicBezier::new(closing)))
         };
         // Named so that the host finds it.
         #[inline(never)]

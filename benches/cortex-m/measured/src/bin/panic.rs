@@ -1,4 +1,4 @@
-//! The control for `no_panic`: `valid` of an error, the one documented panic. It must not link.
+//! The control for `no_panic`: `expect_valid` of an error, the one documented panic. It must not link.
 #![no_std]
 #![no_main]
 
@@ -11,6 +11,6 @@ use link::panicked;
 
 fn run() -> ! {
     let curve = core::hint::black_box(shutter_curve::ShutterCurve::linear(0.0, 1.0, 2.0, 3.0));
-    core::hint::black_box(shutter_curve::valid(curve));
+    core::hint::black_box(shutter_curve::expect_valid(curve));
     link::run()
 }

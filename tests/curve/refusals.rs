@@ -1,13 +1,13 @@
 //! What is refused, with the variant, the part and the point that it names, to the adjacent `f32` on each side of each
 //! rule; and what is clamped.
 
-mod support;
-
+use crate::support::curves::{
+    LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, instant, is_valid, line,
+};
+use crate::support::oracle::{Curve, Points, exp2};
 use CurveError as E;
 use Part::{Closing, Opening, Plateau};
 use shutter_curve::{CubicBezier, CurveError, Part, ScheduleError, ShutterCurve};
-use support::curves::{LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, instant, is_valid, line};
-use support::oracle::{Curve, Points, exp2};
 
 const OPENS: Points = [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)];
 const CLOSES: Points = [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)];
@@ -55,16 +55,17 @@ fn both(opening: Points, closing: Points, expected: Result<(), CurveError>) {
     assert_eq!(verdict(first, last), expected, "mirrored: {opening:?} {closing:?}");
 }
 
-/// From about `x` on the last number, upwards or downwards, for which this holds; the next one is beyond the edge.
-fn edge(mut x: f32, is_up: bool, holds: impl Fn(f32) -> bool) -> [f32; 2] {
-    let step = |x: f32, ahead: bool| if ahead == is_up { x.next_up() } else { x.next_down() };
-    while !holds(x) {
-        x = step(x, false);
+/// The last number, upwards or downwards, for which this holds; the next one is beyond the edge.
+fn edge(is_up: bool, holds: impl Fn(f32) -> bool) -> [f32; 2] {
+    // All numbers in order: a positive one by its bits.
+    let number = |place: i32| f32::from_bits(place.unsigned_abs()).copysign(place as f32);
+    let most = f32::MAX.to_bits() as i32;
+    let [mut last, mut beyond] = if is_up { [-most, most] } else { [most, -most] };
+    while last.abs_diff(beyond) > 1 {
+        let middle = i32::midpoint(last, beyond);
+        *(if holds(number(middle)) { &mut last } else { &mut beyond }) = middle;
     }
-    while holds(step(x, true)) {
-        x = step(x, true);
-    }
-    [x, step(x, true)]
+    [last, beyond].map(number)
 }
 
 fn span(from: f32, to: f32) -> f64 {
@@ -181,18 +182,17 @@ fn rule_2_the_first_inner_time_passes_the_second_by_15_16() {
         let with = |t1: f32, t2: f32, to: f32| [(from, 0.0), (t1, 0.3), (t2, 0.6), (to, 1.0)];
         let holds = |t1, t2, to| span(t2, t1) <= MOST_CROSSED * span(from, to);
         let second = (f64::from(from) + typed(0.0625 * rng.unit()) * span(from, to)) as f32;
-        let first = (f64::from(second) + MOST_CROSSED * span(from, to)) as f32;
-        let [first, beyond] = edge(first.min(to), true, |t1| t1 <= to && holds(t1, second, to));
+        let [first, beyond] = edge(true, |t1| t1 <= to && holds(t1, second, to));
         both(with(first, second, to), closing, Ok(()));
         if beyond <= to {
             both(with(beyond, second, to), closing, Err(E::TimesCross(Opening)));
         }
-        let [least, below] = edge(second, false, |t2| t2 >= from && holds(first, t2, to));
+        let [least, below] = edge(false, |t2| t2 >= from && holds(first, t2, to));
         both(with(first, least, to), closing, Ok(()));
         if below >= from {
             both(with(first, below, to), closing, Err(E::TimesCross(Opening)));
         }
-        let [shortest, shorter] = edge(to, false, |to| to >= first && holds(first, second, to));
+        let [shortest, shorter] = edge(false, |to| to >= first && holds(first, second, to));
         both(with(first, second, shortest), closing, Ok(()));
         if shorter >= first {
             both(with(first, second, shorter), closing, Err(E::TimesCross(Opening)));
@@ -245,11 +245,10 @@ fn rule_4_the_interval_is_resolved_and_in_range() {
         } else {
             rng.power_of_ten(-12.0, 12.0) as f32
         };
-        let near = (f64::from(start) * (1.0 + LEAST_INTERVAL)) as f32;
-        let [end, short] = edge(near, false, |end| holds(start, end));
+        let [end, short] = edge(false, |end| holds(start, end));
         both(instant(start), instant(end), Ok(()));
         both(instant(start), instant(short), Err(E::IntervalUnresolved));
-        let [start, late] = edge(start, true, |start| holds(start, end));
+        let [start, late] = edge(true, |start| holds(start, end));
         both(instant(start), instant(end), Ok(()));
         both(instant(late), instant(end), Err(E::IntervalUnresolved));
     }
@@ -281,9 +280,8 @@ fn rule_5_sections_have_no_length_or_the_least() {
         let least = |end: f32| LEAST_SECTION * f64::from(end);
         // The short section begins here, where `f32` are fine enough.
         let from = (f64::from(greatest) * (rng.unit() - 0.5) * exp2(-(rng.below(20) as i32 + 10))) as f32;
-        let near = (f64::from(from) + least(greatest)) as f32;
-        let [to, short] = edge(near, false, |to| span(from, to) >= least(greatest));
-        let [_, late] = edge(from, true, |from| span(from, to) >= least(greatest));
+        let [to, short] = edge(false, |to| span(from, to) >= least(greatest));
+        let [_, late] = edge(true, |from| span(from, to) >= least(greatest));
         // Ends the ramp at a time.
         let until = |t: f32| line((t, 1.0), (greatest, 0.0));
         let since = |t: f32| line((-greatest, 0.0), (t, 1.0));
@@ -426,10 +424,10 @@ fn messages() {
     use ScheduleError as S;
     for (error, text) in [
         (S::TickRateZero, "the tick rate is 0"),
-        (S::TickRateTooHigh { most: 9 }, "the interval is longer than 2^31 ticks; up to 9 Hz it is not"),
-        (S::TickRateTooHigh { most: 0 }, "the interval is longer than 2^31 ticks, whatever the rate"),
-        (S::TooManyTriggers { most: 1 << 22 }, "more triggers or pulses than the 4194304 that a frame can have"),
-        (S::CapacityExceeded { capacity: 16 }, "more triggers than the 16 that the schedule can hold"),
+        (S::TickRateTooHigh { max: 9 }, "the interval is longer than 2^31 ticks; up to 9 Hz it is not"),
+        (S::TickRateTooHigh { max: 0 }, "the interval is longer than 2^31 ticks, whatever the rate"),
+        (S::TooManyTriggers { max: 1 << 22 }, "more triggers or pulses than the 4194304 that a frame can have"),
+        (S::CapacityExceeded { capacity: 16 }, "more triggers than the 16 that the `Vec` can hold"),
         (
             S::GapTooSmall { trigger: 3, gap: 562, min_gap: 1000 },
             "the gap before trigger 3 is 562 ticks; the minimum is 1000",
@@ -439,7 +437,7 @@ fn messages() {
             S::PulsesTooClose { pulse: 17, gap: 0, min_gap: 4711 },
             "the gap before pulse 17 is 0 ticks; the minimum is 4711",
         ),
-        (S::DutyOutOfRange, "the duty has to be above 0 and at most 1"),
+        (S::DutyOutOfRange, "the duty must be above 0 and at most 1"),
         (S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 }, "pulse 17 lasts 815 ticks; the minimum is 4711"),
     ] {
         told(&error, text);

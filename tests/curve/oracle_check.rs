@@ -1,9 +1,7 @@
 //! Holds the oracle against values from elsewhere, against closed forms and against itself.
 
-mod support;
-
-use support::curves::{Kind, hard_us, is_valid, named, random_density, random_hard};
-use support::oracle::{Curve, Dd, Exact, exp2, rounding_cell, ulp_f32};
+use crate::support::curves::{Kind, hard_us, is_valid, named, random_density, random_hard};
+use crate::support::oracle::{Curve, Dd, Exact, exp2, rounding_cell, ulp_f32};
 
 /// `|a - b|` relative to `scale`.
 fn relative(a: Dd, b: Dd, scale: Dd) -> f64 {
@@ -14,7 +12,7 @@ fn relative(a: Dd, b: Dd, scale: Dd) -> f64 {
 fn the_reference_values_are_met() {
     let curves: Vec<_> = named().into_iter().map(|c| (c.name, Exact::new(&c.curve))).collect();
     let (mut rows, mut worst, mut worst_pdf) = (0, 0f64, 0f64);
-    for line in include_str!("data/inverse_cdf.csv").lines().skip(1) {
+    for line in include_str!("../data/inverse_cdf.csv").lines().skip(1) {
         let mut cells = line.split(',');
         let name = cells.next().unwrap();
         let u: f32 = cells.next().unwrap().parse().unwrap();

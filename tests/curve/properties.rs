@@ -1,12 +1,10 @@
 //! Random bit patterns: an error, or a curve that keeps its promises.
 
-mod support;
-
+use crate::support::curves::{Rng, is_valid};
+use crate::support::oracle::{Curve, Exact, Points, exp2};
+use crate::support::promise::{Figures, Questions};
+use crate::support::times;
 use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
-use support::curves::{Rng, is_valid};
-use support::oracle::{Curve, Exact, Points, exp2};
-use support::promise::{Figures, Questions};
-use support::times;
 
 /// Any bits, with a weight for the numbers that curves are made of.
 fn number(rng: &mut Rng) -> f32 {
@@ -50,7 +48,7 @@ fn bits(values: [f32; 3]) -> [u32; 3] {
 #[test]
 fn a_shutter_is_refused_or_keeps_its_promises() {
     let (mut figures, mut accepted) = (Figures::default(), 0);
-    for index in 0..20_000 * times() {
+    for index in 0..10_000 * times() {
         let rng = &mut Rng::new(2026, index);
         let asked = ramps(rng);
         let made = build(&asked);
@@ -100,7 +98,7 @@ fn triggers_return_for_any_numbers() {
         let (n, hz, gap) = (rng.below(200) as u32, rng.bits() as u32, rng.bits() as u32);
         let shift = rng.below(32);
         for (hz, gap) in [(hz, gap), (hz >> shift, gap >> shift)] {
-            if let Ok(most) = curve.most_triggers(n, hz, gap) {
+            if let Ok(most) = curve.max_triggers(n, hz, gap) {
                 assert!(most <= n && (most > 0 || n == 0), "{most} of {n}: {asked:?}");
             }
             if let Ok(ticks) = curve.trigger_ticks(n, hz) {

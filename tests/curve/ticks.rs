@@ -1,16 +1,14 @@
 //! Triggers and pulses: ticks, schedules, iterators, frames without a search. `promises.rs` judges the ticks
 //! themselves.
 
-mod support;
-
-use shutter_curve::{CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, valid};
-use support::cases::shutter;
-use support::curves::{Kind, named, random_hard, random_typical};
-use support::oracle::{Curve, Dd, Exact};
-use support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
+use crate::support::cases::shutter;
+use crate::support::curves::{Kind, named, random_hard, random_typical};
+use crate::support::oracle::{Curve, Dd, Exact};
+use crate::support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
+use shutter_curve::{CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, expect_valid};
 
 const SOFT: ShutterCurve =
-    valid(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
+    expect_valid(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
 
 #[test]
 fn a_static_curve_is_the_one_built_at_run_time() {
@@ -24,7 +22,7 @@ fn a_static_curve_is_the_one_built_at_run_time() {
 #[test]
 fn a_constant_has_the_ticks_of_run_time() {
     const DARK: ShutterCurve =
-        valid(ShutterCurve::density(CubicBezier::new([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0), (1.0799999, 0.0)])));
+        expect_valid(ShutterCurve::density(CubicBezier::new([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0), (1.0799999, 0.0)])));
     const TICKS: Result<[u32; 16], ScheduleError> = DARK.ticks(1_000_000_000, 0);
     assert_eq!(std::hint::black_box(&DARK).ticks(1_000_000_000, 0), TICKS);
 }
@@ -57,15 +55,15 @@ fn frames_that_are_refused() {
     let ways: [(&str, Way); 5] = [
         ("trigger_ticks", &|n, hz| SOFT.trigger_ticks(n, hz).err()),
         ("pulse_ticks", &|n, hz| SOFT.pulse_ticks(n, 0.5, hz).err()),
-        ("most_triggers", &|n, hz| SOFT.most_triggers(n, hz, 0).err()),
+        ("max_triggers", &|n, hz| SOFT.max_triggers(n, hz, 0).err()),
         ("ticks_into", &|n, hz| SOFT.ticks_into(&mut many(n), hz, 0).err()),
         ("pulses_into", &|n, hz| {
             let mut pulses = vec![Pulse::default(); n as usize];
             SOFT.pulses_into(&mut pulses, 0.5, hz, PulseLimits::default()).err()
         }),
     ];
-    let too_high = S::TickRateTooHigh { most: 1 << 31 };
-    let too_many = S::TooManyTriggers { most: MOST_TRIGGERS };
+    let too_high = S::TickRateTooHigh { max: 1 << 31 };
+    let too_many = S::TooManyTriggers { max: MOST_TRIGGERS };
     for (i, (name, error)) in ways.into_iter().enumerate() {
         for (n, hz, expected) in [
             (0, 0, Some(S::TickRateZero)),
@@ -124,15 +122,15 @@ fn no_triggers() {
 fn the_greatest_tick_rate_is_named() {
     for length in [0.51, 0.7, 1.0, 10.0, 12345.678, 2.0f32.powi(31)] {
         let curve = ShutterCurve::linear(0.0, 0.0, length, length).unwrap();
-        let Err(ScheduleError::TickRateTooHigh { most }) = curve.trigger_ticks(1, u32::MAX) else {
+        let Err(ScheduleError::TickRateTooHigh { max }) = curve.trigger_ticks(1, u32::MAX) else {
             panic!("{length}: the interval has more than 2^31 ticks");
         };
-        assert!(most > 0 && curve.trigger_ticks(1, most).is_ok(), "{length}: {most}");
-        let error = curve.trigger_ticks(1, most + 1).err();
-        assert_eq!(error, Some(ScheduleError::TickRateTooHigh { most }), "{length}");
+        assert!(max > 0 && curve.trigger_ticks(1, max).is_ok(), "{length}: {max}");
+        let error = curve.trigger_ticks(1, max + 1).err();
+        assert_eq!(error, Some(ScheduleError::TickRateTooHigh { max }), "{length}");
     }
     let long = ShutterCurve::linear(0.0, 0.0, 1e10, 1e10).unwrap();
-    assert_eq!(long.trigger_ticks(1, 1).err(), Some(ScheduleError::TickRateTooHigh { most: 0 }));
+    assert_eq!(long.trigger_ticks(1, 1).err(), Some(ScheduleError::TickRateTooHigh { max: 0 }));
 }
 
 #[test]
@@ -147,20 +145,23 @@ fn slices_for_a_schedule() {
     let Err(error) = curve.ticks_into(&mut [0; 5000], 1000, 1) else { panic!("5000 ticks of 1000") };
     assert!(matches!(error, ScheduleError::GapTooSmall { gap: 0, min_gap: 1, .. }), "{error}");
     assert_eq!(curve.ticks_into(&mut [0; 5000], 1000, 0), Ok(()));
+    // A constant can panic with the reason.
+    const REASON: &str = if let Err(error) = SOFT.ticks::<2>(1000, u32::MAX) { error.message() } else { "" };
+    assert_eq!(REASON, "a gap between triggers is below the minimum");
 }
 
 #[test]
-fn the_most_triggers_of_anything() {
+fn the_max_triggers_of_anything() {
     let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
-    assert_eq!(curve.most_triggers(0, 1000, 1), Ok(0));
-    assert_eq!(curve.most_triggers(1, 1000, u32::MAX), Ok(1));
+    assert_eq!(curve.max_triggers(0, 1000, 1), Ok(0));
+    assert_eq!(curve.max_triggers(1, 1000, u32::MAX), Ok(1));
     // A gap of 0 asks for nothing.
-    assert_eq!(curve.most_triggers(MOST_TRIGGERS, 1000, 0), Ok(MOST_TRIGGERS));
-    assert_eq!(curve.most_triggers(MOST_TRIGGERS, 1000, u32::MAX), Ok(1));
-    assert_eq!(curve.most_triggers(2, 1000, 376), Ok(1));
-    assert_eq!(curve.most_triggers(2, 1000, 375), Ok(2));
+    assert_eq!(curve.max_triggers(MOST_TRIGGERS, 1000, 0), Ok(MOST_TRIGGERS));
+    assert_eq!(curve.max_triggers(MOST_TRIGGERS, 1000, u32::MAX), Ok(1));
+    assert_eq!(curve.max_triggers(2, 1000, 376), Ok(1));
+    assert_eq!(curve.max_triggers(2, 1000, 375), Ok(2));
     // As many as there are ticks, and none to spare.
-    let most = curve.most_triggers(MOST_TRIGGERS, 1 << 31, 1 << 20).unwrap();
+    let most = curve.max_triggers(MOST_TRIGGERS, 1 << 31, 1 << 20).unwrap();
     assert!((1535..=1537).contains(&most), "{most}");
 }
 
@@ -295,15 +296,14 @@ fn a_closing_ramp_with_two_bends_has_direct_triggers() {
 }
 
 /// A schedule has the ticks of its triggers, and says which is the first that comes too soon.
-fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
-    let shutter = shutter::<OCTAVES>(curve);
+fn judge_filled<const OCTAVES: usize>(shutter: &ShutterCurve<OCTAVES>, n: u32, hz: u32) {
     let mut filled = vec![0; n as usize];
     let ticks: Vec<u32> = match shutter.trigger_ticks(n, hz) {
         Ok(ticks) => ticks.collect(),
         Err(error) => return assert_eq!(shutter.ticks_into(&mut filled, hz, 0), Err(error)),
     };
     shutter.ticks_into(&mut filled, hz, 0).unwrap();
-    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz, OCTAVES = {OCTAVES}: {curve:?}");
+    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz: {shutter:?}");
     let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
     let mut sorted: Vec<u32> = gaps.clone().collect();
     sorted.sort_unstable();
@@ -312,7 +312,7 @@ fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
         let soon = gaps.clone().position(|gap| gap < min_gap).unwrap();
         let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
         let error = ScheduleError::GapTooSmall { trigger, gap, min_gap };
-        assert_eq!(shutter.ticks_into(&mut filled, hz, min_gap), Err(error), "{n}: {curve:?}");
+        assert_eq!(shutter.ticks_into(&mut filled, hz, min_gap), Err(error), "{n}: {shutter:?}");
     }
 }
 
@@ -321,18 +321,19 @@ fn a_filled_schedule_is_each_trigger_alone() {
     let random = (0..60).flat_map(|i| [random_typical(7, i), random_hard(7, i)]);
     for curve in named().into_iter().map(|named| named.curve).chain(random) {
         let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        let (few, many) = (shutter::<8>(&curve), shutter::<64>(&curve));
         for n in [1, 2, 3, 5, 16, 63, 64, 100, 1000, 4097] {
             for most in [f64::from(n), 1e5, 1e7, 1e8] {
                 let hz = (most / length).clamp(1.0, 4e9) as u32;
                 if most < 2e7 || n < 20 {
-                    judge_filled::<8>(&curve, n, hz);
-                    judge_filled::<64>(&curve, n, hz);
+                    judge_filled(&few, n, hz);
+                    judge_filled(&many, n, hz);
                 }
             }
         }
-        judge_filled::<0>(&curve, 7, (1e6 / length).clamp(1.0, 4e9) as u32);
+        judge_filled(&shutter::<0>(&curve), 7, (1e6 / length).clamp(1.0, 4e9) as u32);
     }
-    judge_filled::<8>(&random_typical(7, 0), 1 << 22, 1 << 22);
+    judge_filled(&shutter::<8>(&random_typical(7, 0)), 1 << 22, 1 << 22);
 }
 
 #[cfg(feature = "heapless-v0_9")]
@@ -373,7 +374,7 @@ fn the_most_that_keep_the_gap() {
             [(1000, 47), (1000, 50), (1_000_000, 33_333), (1_000_000, 1_000), (100, 7), (10, 9), (7, 100), (50, 1)]
         {
             for wanted in [2, 3, 64, 1000, 10_000] {
-                let found = curve.most_triggers(wanted, hz, gap).unwrap();
+                let found = curve.max_triggers(wanted, hz, gap).unwrap();
                 if keeps(&curve, wanted, hz, gap) {
                     assert_eq!(found, wanted, "{hz} Hz, {gap} ticks");
                     continue;
@@ -391,14 +392,14 @@ fn the_most_that_keep_the_gap() {
 #[test]
 fn the_most_on_a_shutter_that_never_fully_opens() {
     for n in 21..=64 {
-        assert_eq!(half_open().most_triggers(n, 500, 50), Ok(20), "{n}");
+        assert_eq!(half_open().max_triggers(n, 500, 50), Ok(20), "{n}");
     }
 }
 
 /// Sixteen octaves a side are within what the compiler evaluates in a constant.
 #[test]
 fn a_large_curve_is_a_constant_too() {
-    static LARGE: ShutterCurve<16> = valid(ShutterCurve::with_octaves(
+    static LARGE: ShutterCurve<16> = expect_valid(ShutterCurve::with_octaves(
         CubicBezier::new([(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)]),
         CubicBezier::new([(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)]),
     ));
@@ -414,11 +415,11 @@ fn one_figure_for_the_worst_direct_tick() {
         let (number, _) = rest.split_once(after).unwrap();
         number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
     };
-    let readme = number(include_str!("../README.md"), "triggers in ", " modelled");
-    let example = include_str!("../examples/trigger/firmware.rs");
+    let readme = number(include_str!("../../README.md"), "take at most", " cycles");
+    let example = include_str!("../../examples/trigger/firmware.rs");
     assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
     // | a tick | soft | all ramp | trapezoid | worst | direct | ...
-    let (_, row) = include_str!("../docs/internals/cost.md").split_once("\n| a tick |").unwrap();
+    let (_, row) = include_str!("../../docs/internals/cost.md").split_once("\n| a tick |").unwrap();
     assert_eq!(row.split('|').nth(4).unwrap().trim().parse(), Ok(readme));
 }
 

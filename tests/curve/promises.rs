@@ -1,21 +1,21 @@
 //! Every promise of a curve, on every family of curves: named ones, random ones, ones that aim at a difficulty, ones as
 //! people draw them, and those on which a version failed.
 //!
-//! `cargo test --test promises -- --nocapture` prints the worst of each family. `TIMES=4` before it tries four times as
-//! many random curves, the first of which are the same.
+//! `cargo test --test curve promises:: -- --nocapture` prints the worst of each family. `TIMES=8` before it tries eight
+//! times as many random curves, the first of which are the same.
 
-mod support;
-
-use support::aimed::{FAMILIES, aimed};
-use support::cases::{CASES, shutter};
-use support::curves::{
+use crate::support::aimed::{FAMILIES, aimed};
+use crate::support::cases::{CASES, shutter};
+use crate::support::curves::{
     Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted, hard_openness, hard_times,
     hard_us, instant, line, named, neighbours, placed, random_density, random_hard, random_typical, settled, shape,
 };
-use support::designs::DESIGNS;
-use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{BACKWARD, FORWARD, FORWARD_MEAN, Figures, Questions, Reach, SCALAR, TICK, TYPICAL_TICK, VALUE};
-use support::times;
+use crate::support::designs::DESIGNS;
+use crate::support::oracle::{Curve, Dd, Exact, Points, exp2};
+use crate::support::promise::{
+    BACKWARD, FORWARD, FORWARD_MEAN, Figures, Questions, Reach, SCALAR, TICK, TYPICAL_TICK, VALUE,
+};
+use crate::support::times;
 
 const SEED: u64 = 13;
 /// What is asked of curves that are few.
@@ -30,7 +30,7 @@ fn report(name: &str, figures: &Figures) {
 /// What is held here is what the pages promise.
 #[test]
 fn the_pages_have_these_numbers() {
-    let [accuracy, readme] = [include_str!("../docs/accuracy.md"), include_str!("../README.md")];
+    let [accuracy, readme] = [include_str!("../../docs/accuracy.md"), include_str!("../../README.md")];
     let forward = format!("{FORWARD} ulp, mean {FORWARD_MEAN} ");
     for (page, row, promise) in [
         (accuracy, "`inverse_cdf`, backward", format!("{BACKWARD:?} ulp ")),
@@ -38,12 +38,11 @@ fn the_pages_have_these_numbers() {
         (accuracy, "`cdf`", format!("{VALUE} ulp ")),
         (accuracy, "`openness` and `pdf`", format!("{VALUE} ulp ")),
         (accuracy, "`exposure`", format!("{SCALAR} ulp ")),
-        (accuracy, "a tick, to", format!("{TYPICAL_TICK} tick ")),
-        (accuracy, "a tick, distance", format!("{TICK} tick ")),
-        (accuracy, "a pulse's end", format!("{TICK} tick ")),
+        (accuracy, "a tick, typical", format!("{TYPICAL_TICK} tick ")),
+        (accuracy, "a tick, every", format!("{TICK} tick ")),
+        (accuracy, "a pulse's `on`", format!("{TICK} tick ")),
         (readme, "`inverse_cdf`, backward", format!("{BACKWARD:?} ulp ")),
         (readme, "`inverse_cdf`, forward", format!("{FORWARD} ulp ")),
-        (readme, "`cdf`, `openness`", format!("{VALUE} ulp ")),
         (readme, "`trigger_ticks`", format!("{TYPICAL_TICK} tick ")),
     ] {
         let (_, told) = page.split_once(&format!("\n| {row}")).unwrap_or_else(|| panic!("no {row}"));
@@ -73,7 +72,7 @@ fn ask(figures: &mut Figures, curve: &Curve, all_octaves: bool, reach: Reach) {
     }
 }
 
-/// Is a design as [`random_typical`](support::curves::random_typical) draws them? On these the forward error is
+/// Is a design as [`random_typical`](crate::support::curves::random_typical) draws them? On these the forward error is
 /// promised.
 fn is_typical(curve: &Curve) -> bool {
     let is_gentle = |ramp: Points| {
@@ -150,29 +149,29 @@ fn fresh(name: &str, curves: u64, draw: fn(u64, u64) -> Curve) {
 #[test]
 fn random_typical_curves() {
     let mut figures = Figures::default();
-    for i in 0..300 * times() {
+    for i in 0..150 * times() {
         let exact = Exact::new(&random_typical(2, i));
         let questions = Questions::fractions(&exact, spread(300), true);
         figures.asked::<8>(&exact, &questions);
         figures.asked::<0>(&exact, &questions);
     }
     report("random typical, spread", &figures);
-    fresh("random typical", 300, random_typical);
+    fresh("random typical", 150, random_typical);
 }
 
 #[test]
 fn random_hard_curves() {
-    fresh("random hard", 2500, random_hard);
+    fresh("random hard", 1200, random_hard);
 }
 
 #[test]
 fn random_densities() {
-    fresh("random densities", 1000, random_density);
+    fresh("random densities", 500, random_density);
 }
 
 fn judge_aimed(family: usize) {
     let mut figures = Figures::default();
-    for index in 0..1200 * times() {
+    for index in 0..600 * times() {
         figures.judge(&aimed(family, SEED, index), &mut Rng::new(SEED, index));
     }
     report(FAMILIES[family].0, &figures);
@@ -233,7 +232,7 @@ families! {
 #[test]
 fn octaves_at_their_limit() {
     let (mut figures, mut direct) = (Figures::default(), 0);
-    for index in 0..1200 * times() {
+    for index in 0..600 * times() {
         let rng = &mut Rng::new(SEED, index);
         let [at, a, b] = [0; 3].map(|_| rng.unit());
         let (flat, rest) = (hard_openness(rng), [0.0, 1.0, 30.0, 1000.0][rng.below(4) as usize] as f32);
@@ -268,7 +267,7 @@ fn octaves_at_their_limit() {
         }
     }
     println!("{direct} dials");
-    assert!(direct >= 150, "only {direct}");
+    assert!(direct >= 75, "only {direct}");
     report("octaves at their limit", &figures);
 }
 
