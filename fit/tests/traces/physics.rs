@@ -208,6 +208,13 @@ fn a_tail_is_told() {
     assert!(told >= 23, "{told}");
 }
 
+/// A tail that the trace cuts off is no drift, though a line comes near to it.
+#[test]
+fn a_tail_is_no_drift() {
+    let rows = family_rows(Family::CutTail, 4, 1);
+    assert!(rows.iter().all(|row| !row.warnings.contains(&"drift")), "{:?}", rows[0].warnings);
+}
+
 /// A dip of 1 % for a fifth of the time is told, or that it would not be seen; full light that sinks by 0.5 to 2 % is,
 /// or is in the errors.
 #[test]
