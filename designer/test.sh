@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The designer's tests in real browsers: Chromium and Firefox, which are installed from Debian's packages where they are
-# missing.
+# missing. With `picture`, docs/designer.png is made anew instead.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -25,4 +25,6 @@ echo "designer: building the program that serves the page, half a minute the fir
 cargo build --quiet --package shutter
 target=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
 export CHROMIUM FIREFOX SHUTTER="$target/debug/shutter"
-node --test --test-concurrency=1 --test-reporter spec "$@" test/*.test.js
+files=(test/*.test.js)
+if [ "${1:-}" = picture ]; then shift; files=(test/picture.js); fi
+node --test --test-concurrency=1 --test-reporter spec "$@" "${files[@]}"

@@ -25,10 +25,6 @@ export function startExport() {
   $('copy').onclick = () => whole((text) => copy(text, `Copied: ${FORMS.find(([name]) => name === chosen)[1]}`));
   $('save').onclick = () => whole((text, file) => save(new Blob([text], { type: 'text/plain' }), file));
   $('link').onclick = () => copyLink(model.now);
-  $('svg').onclick = async () => {
-    const { scene } = model.now;
-    save(new Blob([await picture(scene)], { type: 'image/svg+xml' }), `${plain(scene.name)}.svg`);
-  };
   $('forms').onkeydown = (event) => {
     const to = arrowed(event, FORMS.findIndex(([name]) => name === chosen), FORMS.length);
     if (to === undefined) return;
@@ -60,7 +56,7 @@ function choose(name) {
 const isNewForm = watch();
 
 export function drawExport({ now: { scene }, view, wrong }) {
-  for (const id of ['link', 'svg']) $(id).disabled = !view || Boolean(wrong?.id || scene.untold);
+  $('link').disabled = !view || Boolean(wrong?.id || scene.untold);
   if (!isSeen) return offerCopy(Boolean(view && !wrong && !scene.untold));
   if (!isNewForm(scene, chosen, wrong)) return;
   say('');
@@ -147,17 +143,3 @@ function save(blob, name) {
 
 // A scene's name as that of a file.
 const plain = (name) => name.replace(/[^\w-]+/g, '-') || 'shutter';
-
-// The graph as it is seen, but for the handles, and with what is doubtful: as text, since this page takes no styles but
-// from its sheet.
-async function picture({ name, doubts }) {
-  const sheet = await (await fetch(document.querySelector('link[rel=stylesheet]').href)).text();
-  const graph = $('graph').querySelector('svg').cloneNode(true);
-  for (const part of graph.querySelectorAll('.handle, .arms, .cross')) part.remove();
-  for (const part of [graph, ...graph.querySelectorAll('*')]) part.removeAttribute('aria-hidden');
-  const title = `Openness and exposure of the shutter ${name} over time, with its flashes`;
-  graph.setAttribute('role', 'img');
-  graph.setAttribute('aria-label', [title, ...doubts.map(({ text }) => `doubtful: ${text}`)].join('; '));
-  const style = `<style>${sheet}:root { background: var(--card); }</style>`;
-  return new XMLSerializer().serializeToString(graph).replace('>', () => `>${style}`);
-}

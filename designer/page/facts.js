@@ -82,13 +82,14 @@ export function drawFacts({ now: { scene, trace }, view, last, isDraft }, sample
       : near ? `; nearest full stop: ${dial(near)}` : '';
     line('Speed', `${dial(exposure)} s${called}`);
   }
-  // A time is not parted from its name, nor from its error.
-  if (fit) line('Times', fit.tester.replace(/(?<=T\w+) | (?=±)|(?<=±) /g, '\u00a0'), 'times');
-  else if (!measured) {
+  const drawn = () => {
     const [t1, t2, t3] = last.times.slice(1).map((t, i) => short((t - last.times[i]) * per));
     const half = plan ? `; TE ${short(plan.half_open * per)}` : '';
-    line('Times', `T1 ${t1}, T2 ${t2}, T3 ${t3}${half}; TOT ${of(last.times[3] - last.times[0])}`, 'times');
-  }
+    return `T1 ${t1}, T2 ${t2}, T3 ${t3}${half}; TOT ${of(last.times[3] - last.times[0])}`;
+  };
+  const times = fit ? fit.tester : measured ? '' : drawn();
+  // A time is not parted from its name, nor from its error.
+  if (times) line('Times', times.replace(/(?<=T\w+) | (?=±)|(?<=±) /g, '\u00a0'), 'times');
   if (isKnown) line('Efficiency', fit ? fit.efficiency : `${short(100 * last.efficiency, 4)} %`, 'efficiency');
   if (fit) line('Test', tested(fit), 'test');
   // A channel that may be the sync's is asked for.

@@ -187,7 +187,7 @@ export async function planned(form = 'json', name = 'copied') {
   return shutter('plan', file, '--emit', form);
 }
 
-/** The file that an action saves. */
+/** What the file is called that an action saves. */
 export async function saved(act) {
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: downloads });
@@ -196,7 +196,7 @@ export async function saved(act) {
   await act();
   for (let i = 0; i < 3000; i++, await new Promise((done) => setTimeout(done, 20))) {
     const [name] = readdirSync(downloads);
-    if (name && !name.endsWith('.crdownload')) return { name, path: join(downloads, name) };
+    if (name && !name.endsWith('.crdownload')) return name;
   }
   assert.fail('nothing was saved');
 }
@@ -220,6 +220,12 @@ export async function drag(name, dx, dy) {
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + dx, y + dy, { steps: 5 });
+}
+
+/** Drags a handle, and lets it go. */
+export async function dragged(...how) {
+  await drag(...how);
+  await page.mouse.up();
 }
 
 /** Drops files on the page; a text may be a function that makes it there. */

@@ -7,9 +7,9 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
-  ROOT, SCENES, SOFT, bouncing, browser, choose, clipped, complaints, copied, copiedBy, curve, drag, drawn, drop, ended,
-  extend, fitted, forgive, hold, middle, open, page, planned, preset, ready, refused, rows, saved, scratch, setUp,
-  settled, shutter, sine, ticks, trace, url, written,
+  ROOT, SCENES, SOFT, bouncing, browser, choose, clipped, complaints, copied, copiedBy, curve, drag, dragged, drawn,
+  drop, ended, extend, fitted, forgive, hold, middle, open, page, planned, preset, ready, refused, rows, saved,
+  scratch, setUp, settled, shutter, sine, ticks, trace, url, written,
 } from './harness.js';
 
 // Everything within one ramp or the other: the most that a curve can ask of the crate.
@@ -20,6 +20,7 @@ const TRIANGLE = '#name=triangle&unit=ms&times=0,50,50,100&triggers=20&timer_hz=
 setUp();
 
 const facts = () => page.text('#facts');
+const number = async (id) => Number(await page.value(`#${id}`));
 const focused = () => page.evaluate(() => {
   const it = document.activeElement;
   return it.id || it.name || it.dataset.name;
@@ -97,17 +98,16 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
   assert.deepEqual(inner, ['0.2', '0.3', '0.85'], 'a time takes its ramp along');
 });
 
-test('numbers are read as people write them; of any other that is told which was meant', async () => {
+test('numbers are read as people write them, and any other is refused', async () => {
   await open();
   for (const [id, text, value] of [
     ['min_gap', '0,25', 0.25], ['min_gap', '0.125', 0.125], ['open_start', '−0,5', -0.5], ['open_start', '-.5e0', -0.5],
     ['min_gap', '0', 0], ['nominal', '1/125 s', 8], ['timer_hz', '1 MHz', 1_000_000], ['timer_hz', '2,5 kHz', 2500],
     ['open_end', '2400µs', 2.4], ['min_gap', '5e4 ns', 0.05], ['timer_hz', '32.768 kHz', 32768],
-    ['open_end', '12 000 us', 'write 12000 us'], ['open_end', '1 1/2 s', 'write 1.5 s'],
-    ['open_end', '1,500 ms', 'may be 1.5 ms or 1500 ms'], ['open_end', '1/1 000', 'write 1/1000'],
-    ['open_end', '2.5', 2.5], ['timer_hz', '1.000 Hz', 'may be 1 Hz or 1000 Hz'], ['timer_hz', '1 5', 'is no number'],
-    ['timer_hz', '1\u202f500', 'write 1500'], ['timer_hz', '1e6', 1e6], ['min_gap', '1.000,5', 'write 1000.5'],
-    ['min_gap', '0', 0], ['open_end', '1,234.5', 'write 1234.5'], ['open_end', '2 kHz', 'has an unknown unit'],
+    ...['12 000 us', '1 1/2 s', '1/1 000', '1\u202f5', '1.0,5', '1,2.5'].map((no) => ['min_gap', no, 'is no number']),
+    ['open_end', '1,500 ms', 'may mean 1.5 or 1500:'], ['open_end', '1/1,000', 'may mean 1 or 1000:'],
+    ['open_end', '2.5', 2.5], ['timer_hz', '1.000 Hz', 'may mean 1 or 1000:'], ['timer_hz', '1e6', 1e6],
+    ['open_end', '2 kHz', 'has an unknown unit'],
   ]) {
     await page.fill(`#${id}`, text);
     const told = await page.text('#problem');
@@ -147,7 +147,7 @@ test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; 
   await touch('touchStart', { x, y });
   for (let i = 1; i <= 5; i++) await touch('touchMove', { x: x + 2 * i, y: y - 8 * i });
   await touch('touchEnd');
-  assert.ok(Number(await page.value('#y1')) > 0.1 && Number(await page.value('#t1')) > 0.1);
+  assert.ok(await number('y1') > 0.1 && await number('t1') > 0.1);
   await page.resize(640, 2000);
   await page.evaluate(() => (document.documentElement.style.fontSize = '200%'));
   await drawn();
@@ -157,38 +157,29 @@ test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; 
 test('handles in one place can each be taken, and keys move each within its box', async () => {
   await open(TRIANGLE);
   // A triangle opens into a trapezoid, to either side.
-  await drag('open_end', -60, 0);
-  await page.mouse.up();
-  assert.ok(Number(await page.value('#open_end')) < 45);
+  await dragged('open_end', -60, 0);
+  assert.ok(await number('open_end') < 45);
   assert.equal(await page.value('#close_start'), '50');
   await page.click('#undo');
-  await drag('open_end', 60, 0);
-  await page.mouse.up();
-  assert.ok(Number(await page.value('#close_start')) > 55);
+  await dragged('open_end', 60, 0);
+  assert.ok(await number('close_start') > 55);
   assert.equal(await page.value('#open_end'), '50');
   await open();
   const at = (name) => page.$eval(`#handle-${name}`, (it) =>
     ['min', 'now', 'max'].map((part) => Number(it.getAttribute(`aria-value${part}`))));
   // Pulled out of its box it slides along its side.
-  await drag('t1', 40, 200);
-  await page.mouse.up();
+  await dragged('t1', 40, 200);
   assert.equal(await page.value('#y1'), '0');
-  assert.ok(Number(await page.value('#t1')) > 0.13, await page.value('#t1'));
+  assert.ok(await number('t1') > 0.13, await page.value('#t1'));
   await page.click('#undo');
   await page.focus('#handle-open_end');
   for (const [key, now] of [['End', 7.5], ['ArrowRight', 7.5], ['Home', 0], ['PageUp', 1], ['PageDown', 0]]) {
     await page.press(key);
     assert.deepEqual(await at('open_end'), [0, now, 7.5], key);
   }
-  for (const name of ['open_start', 't1', 't2', 't5', 't6', 'close_end']) {
-    await page.focus(`#handle-${name}`);
-    for (const key of ['End', 'Home', 'PageUp', 'ArrowUp', 'ArrowDown', 'Shift+ArrowLeft']) await page.press(key);
-    const [min, now, max] = await at(name);
-    assert.ok(min <= now && now <= max && min < max, `${name}: ${[min, now, max]}`);
-  }
 });
 
-test('each copied form is the program’s, and is saved under its name; the picture parses', async () => {
+test('each copied form is the program’s, and is saved under its name', async () => {
   await open();
   for (const name of ['leaf', 'box', 'liquid-crystal']) {
     await preset(name);
@@ -202,17 +193,8 @@ test('each copied form is the program’s, and is saved under its name; the pict
   const files = { rust: 'liquid_crystal.rs', c: 'liquid_crystal.h', toml: 'liquid-crystal.toml' };
   for (const [form, file] of Object.entries(files)) {
     await choose(form);
-    assert.equal((await saved(() => page.click('#save'))).name, file);
+    assert.equal(await saved(() => page.click('#save')), file);
   }
-  const { name, path } = await saved(() => page.click('#svg'));
-  assert.equal(name, 'liquid-crystal.svg');
-  // In a page whose policy allows styles.
-  const blank = await browser.newPage();
-  assert.deepEqual(await blank.evaluate((svg) => {
-    const parsed = new DOMParser().parseFromString(svg, 'image/svg+xml');
-    return [parsed.querySelectorAll('parsererror, .handle').length, parsed.querySelectorAll('path').length > 20];
-  }, readFileSync(path, 'utf8')), [0, true]);
-  await blank.close();
 });
 
 test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, which way the sync goes', async () => {
@@ -288,7 +270,7 @@ test('the keyboard alone gets from a preset to a copied module, in twelve stops 
   await tabTo('handle-t1');
   const before = await page.value('#t1');
   await page.press('ArrowRight');
-  assert.equal(Number(await page.value('#t1')), Number(before) + 0.01);
+  assert.equal(await number('t1'), Number(before) + 0.01);
   await tabTo('copy');
   await page.press('Enter');
   await page.until(() => /Copied/.test(document.getElementById('told').textContent));
@@ -354,7 +336,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   assert.deepEqual(kept, ['0.011', '0.02', '12', 'pulse', '', 'bench']);
   // Each is a step; with the first the trace goes as well.
   await page.click('#undo');
-  assert.ok(Number(await value('open_end')) > 700);
+  assert.ok(await number('open_end') > 700);
   await page.click('#undo');
   assert.deepEqual([await address(), await light()], [before, '']);
   await page.click('#redo');
@@ -373,7 +355,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   await page.keyboard.type('100,5e3');
   await page.keyboard.press('Enter');
   await isRead();
-  assert.ok(Math.abs(Number(await value('open_end')) - (80 / 100.5)) < 0.01, await value('open_end'));
+  assert.ok(Math.abs(await number('open_end') - (80 / 100.5)) < 0.01, await value('open_end'));
   // Another column; and what is chosen before the last choice is read counts as well.
   await drop(['down.csv', made(1e-5, (f) => 3 - 2 * f, 'time (s),dark,light\n').replace(/,(?=[\d.]+$)/gm, ',0.5,')]);
   await fitted('down.csv');
@@ -398,7 +380,7 @@ test('a channel of the sync gives the delay, and its way; what is outside of a w
   assert.equal(await focused(), 'sync');
   await page.fill('#trace [name=sync]', '3');
   await page.until(() => designer.model.now.scene.delay !== null && !designer.model.busy);
-  assert.ok(Math.abs(Number(await page.value('#delay')) - 3) < 0.02, await page.value('#delay'));
+  assert.ok(Math.abs(await number('delay') - 3) < 0.02, await page.value('#delay'));
   assert.equal(await page.value('#sync_falls'), 'true');
   assert.match(await facts(), /Sync(2\.9|3\.0)\d* /);
   // In the unit of the file's times.
@@ -647,7 +629,7 @@ test('a misfit without times of its own takes nothing away, until a person insis
   const isDoubted = async () => {
     await written();
     assert.match(await page.text('#code'), /^There is nothing to copy yet: no curve explains this trace/);
-    for (const id of ['copy', 'save', 'link', 'svg']) assert.ok(await page.isDisabled(`#${id}`), id);
+    for (const id of ['copy', 'save', 'link']) assert.ok(await page.isDisabled(`#${id}`), id);
   };
   await isDoubted();
   assert.match(await facts(), /the model's, and off by more than their errors say/);
@@ -791,8 +773,7 @@ test('a clipped trace is doubted on the screen, in every form, link and row', as
   JSON.parse(await copied('json'));
   const link = await copiedBy(() => page.click('#link'));
   // A hand on a handle does not make the trace a better one.
-  await drag('open_end', 20, 0);
-  await page.mouse.up();
+  await dragged('open_end', 20, 0);
   assert.match(await facts(), /clipped: \d+ %/);
   await follow(link);
   assert.match(await facts(), /clipped: \d+ %/);
@@ -833,8 +814,7 @@ test('what is told goes when its cause goes, and a hand ends no fit', async () =
   await hold();
   await drop(['bench.csv', trace()]);
   await page.waitForSelector('#busy:not([hidden])');
-  await drag('open_end', 20, 0);
-  await page.mouse.up();
+  await dragged('open_end', 20, 0);
   assert.ok(await page.isSeen('#busy'));
   const shown = await curve();
   await page.evaluate(() => release());
