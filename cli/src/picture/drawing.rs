@@ -1,4 +1,4 @@
-//! What the pictures are drawn with: the page, a graph over the time of a plan, pens and marks.
+//! What all pictures are drawn with, those of the benchmarks as well: the page, a graph, pens and marks.
 
 use std::error::Error;
 use std::iter::once;
@@ -11,6 +11,7 @@ use shutter_fit::unit::{Unit, decimals, trimmed};
 use super::style::{self, Area, BLUE, FAINT, GREY, Graph, LIGHT, VERMILION, dressed};
 use crate::plan::Plan;
 
+/// What was drawn is on the page.
 pub type Drawn = Result<(), Box<dyn Error>>;
 
 /// Drawn so much larger than it is shown, since the pen moves by whole units.
@@ -49,10 +50,13 @@ pub fn draw_curve(graph: &mut Graph, plan: &Plan, f: impl Fn(f32) -> f32) -> Dra
     Ok(())
 }
 
-/// An axis: its range, its name, and how its numbers are written.
+/// An axis.
 pub struct Axis<'a> {
+    /// From where to where it goes.
     pub range: Range<f64>,
+    /// What it shows.
     pub name: Option<&'a str>,
+    /// How its numbers are written.
     pub label: &'a dyn Fn(&f64) -> String,
 }
 
@@ -122,6 +126,7 @@ pub fn steps(from: f32, to: f32, n: usize) -> impl Iterator<Item = f32> + Clone 
     (0..=n).map(move |i| from + (to - from) * (i as f32 / n as f32))
 }
 
+/// For lines of this width, as they are shown.
 pub fn pen(color: RGBColor, width: f64) -> ShapeStyle {
     color.stroke_width((width * f64::from(SCALE)) as u32)
 }
