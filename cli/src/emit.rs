@@ -9,6 +9,7 @@ mod name;
 mod rust;
 
 pub use name::{identifier, module};
+use serde::Deserialize;
 
 use crate::facts;
 use crate::lamp::{Lamp, SetUp};
@@ -16,8 +17,9 @@ use crate::planned::Planned;
 use crate::set_up::doses;
 
 /// A form that a plan can be emitted in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
 pub enum Form {
     /// A module with the ticks, which needs no crate
     Rust,
@@ -27,6 +29,18 @@ pub enum Form {
     Csv,
     /// The curve's facts, if there is a curve, and an object for each trigger
     Json,
+}
+
+impl Form {
+    /// What the file of the scene `name` is called: a module's name is its file's.
+    pub fn file(self, name: &str) -> String {
+        match self {
+            Self::Rust => module(name) + ".rs",
+            Self::C => identifier(name) + ".h",
+            Self::Csv => identifier(name) + ".csv",
+            Self::Json => identifier(name) + ".json",
+        }
+    }
 }
 
 /// The plan of the scene `name` in this form; a module has the `curve` only where that is asked for.

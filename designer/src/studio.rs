@@ -24,7 +24,7 @@ const ROWS: usize = 6;
 #[serde(tag = "ask", rename_all = "lowercase")]
 enum Question {
     /// The plan in one of the forms.
-    Emit { name: String, scene: String, form: String },
+    Emit { name: String, scene: String, form: Form },
     /// The numbers of a scene.
     Scene { name: String, scene: String },
     /// The scene that fits a trace, which is the question's payload.
@@ -34,7 +34,7 @@ enum Question {
 /// Answers a question. A fit tells its progress.
 pub fn ask(question: &[u8], payload: Vec<u8>, progress: &mut dyn FnMut(f64)) -> String {
     match serde_json::from_slice(question) {
-        Ok(Question::Emit { name, scene, form }) => json(&emitted(&name, &scene, &form)),
+        Ok(Question::Emit { name, scene, form }) => json(&emitted(&name, &scene, form)),
         Ok(Question::Scene { name, scene }) => json(&checked(&name, &scene)),
         Ok(Question::Fit { name, asked }) => json(&Ok(measured(&name, payload, &asked, progress))),
         Err(error) => json(&Err::<(), _>(error.to_string())),
@@ -53,17 +53,9 @@ struct Emitted {
     file: String,
 }
 
-fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, String> {
-    let (form, file) = match form {
-        // The file's name is the module's.
-        "rust" => (Form::Rust, emit::module(name) + ".rs"),
-        "c" => (Form::C, emit::identifier(name) + ".h"),
-        "csv" => (Form::Csv, emit::identifier(name) + ".csv"),
-        "json" => (Form::Json, emit::identifier(name) + ".json"),
-        _ => return Err(format!("there is no form {form}")),
-    };
+fn emitted(name: &str, scene: &str, form: Form) -> Result<Emitted, String> {
     let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
-    Ok(Emitted { text: emit::emit(form, name, &planned, false)?, file })
+    Ok(Emitted { text: emit::emit(form, name, &planned, false)?, file: form.file(name) })
 }
 
 /// The scene, if it can be planned.

@@ -40,7 +40,7 @@ fn told(it: &impl Tell, about: &'static str) -> Told {
     let mend = match it.remedy() {
         Some(Remedy::Columns(_)) => Some("signal"),
         Some(Remedy::Mains | Remedy::Triggers | Remedy::Picture) | None => None,
-        Some(other) => Some(other.into()),
+        Some(other) => Some(other.option()),
     };
     Told { text: it.to_string(), mend, about }
 }

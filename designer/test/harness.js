@@ -222,6 +222,12 @@ export async function drag(name, dx, dy) {
   await page.mouse.move(x + dx, y + dy, { steps: 5 });
 }
 
+/** Drags a handle, and lets it go. */
+export async function dragged(...how) {
+  await drag(...how);
+  await page.mouse.up();
+}
+
 /** Drops files on the page; a text may be a function that makes it there. */
 export async function drop(...files) {
   await page.evaluate((files) => {

@@ -7,9 +7,9 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
-  ROOT, SCENES, SOFT, bouncing, browser, choose, clipped, complaints, copied, copiedBy, curve, drag, drawn, drop, ended,
-  extend, fitted, forgive, hold, middle, open, page, planned, preset, ready, refused, rows, saved, scratch, setUp,
-  settled, shutter, sine, ticks, trace, url, written,
+  ROOT, SCENES, SOFT, bouncing, browser, choose, clipped, complaints, copied, copiedBy, curve, drag, dragged, drawn,
+  drop, ended, extend, fitted, forgive, hold, middle, open, page, planned, preset, ready, refused, rows, saved,
+  scratch, setUp, settled, shutter, sine, ticks, trace, url, written,
 } from './harness.js';
 
 // Everything within one ramp or the other: the most that a curve can ask of the crate.
@@ -20,6 +20,7 @@ const TRIANGLE = '#name=triangle&unit=ms&times=0,50,50,100&triggers=20&timer_hz=
 setUp();
 
 const facts = () => page.text('#facts');
+const number = async (id) => Number(await page.value(`#${id}`));
 const focused = () => page.evaluate(() => {
   const it = document.activeElement;
   return it.id || it.name || it.dataset.name;
@@ -146,7 +147,7 @@ test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; 
   await touch('touchStart', { x, y });
   for (let i = 1; i <= 5; i++) await touch('touchMove', { x: x + 2 * i, y: y - 8 * i });
   await touch('touchEnd');
-  assert.ok(Number(await page.value('#y1')) > 0.1 && Number(await page.value('#t1')) > 0.1);
+  assert.ok(await number('y1') > 0.1 && await number('t1') > 0.1);
   await page.resize(640, 2000);
   await page.evaluate(() => (document.documentElement.style.fontSize = '200%'));
   await drawn();
@@ -156,23 +157,20 @@ test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; 
 test('handles in one place can each be taken, and keys move each within its box', async () => {
   await open(TRIANGLE);
   // A triangle opens into a trapezoid, to either side.
-  await drag('open_end', -60, 0);
-  await page.mouse.up();
-  assert.ok(Number(await page.value('#open_end')) < 45);
+  await dragged('open_end', -60, 0);
+  assert.ok(await number('open_end') < 45);
   assert.equal(await page.value('#close_start'), '50');
   await page.click('#undo');
-  await drag('open_end', 60, 0);
-  await page.mouse.up();
-  assert.ok(Number(await page.value('#close_start')) > 55);
+  await dragged('open_end', 60, 0);
+  assert.ok(await number('close_start') > 55);
   assert.equal(await page.value('#open_end'), '50');
   await open();
   const at = (name) => page.$eval(`#handle-${name}`, (it) =>
     ['min', 'now', 'max'].map((part) => Number(it.getAttribute(`aria-value${part}`))));
   // Pulled out of its box it slides along its side.
-  await drag('t1', 40, 200);
-  await page.mouse.up();
+  await dragged('t1', 40, 200);
   assert.equal(await page.value('#y1'), '0');
-  assert.ok(Number(await page.value('#t1')) > 0.13, await page.value('#t1'));
+  assert.ok(await number('t1') > 0.13, await page.value('#t1'));
   await page.click('#undo');
   await page.focus('#handle-open_end');
   for (const [key, now] of [['End', 7.5], ['ArrowRight', 7.5], ['Home', 0], ['PageUp', 1], ['PageDown', 0]]) {
@@ -272,7 +270,7 @@ test('the keyboard alone gets from a preset to a copied module, in twelve stops 
   await tabTo('handle-t1');
   const before = await page.value('#t1');
   await page.press('ArrowRight');
-  assert.equal(Number(await page.value('#t1')), Number(before) + 0.01);
+  assert.equal(await number('t1'), Number(before) + 0.01);
   await tabTo('copy');
   await page.press('Enter');
   await page.until(() => /Copied/.test(document.getElementById('told').textContent));
@@ -338,7 +336,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   assert.deepEqual(kept, ['0.011', '0.02', '12', 'pulse', '', 'bench']);
   // Each is a step; with the first the trace goes as well.
   await page.click('#undo');
-  assert.ok(Number(await value('open_end')) > 700);
+  assert.ok(await number('open_end') > 700);
   await page.click('#undo');
   assert.deepEqual([await address(), await light()], [before, '']);
   await page.click('#redo');
@@ -357,7 +355,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   await page.keyboard.type('100,5e3');
   await page.keyboard.press('Enter');
   await isRead();
-  assert.ok(Math.abs(Number(await value('open_end')) - (80 / 100.5)) < 0.01, await value('open_end'));
+  assert.ok(Math.abs(await number('open_end') - (80 / 100.5)) < 0.01, await value('open_end'));
   // Another column; and what is chosen before the last choice is read counts as well.
   await drop(['down.csv', made(1e-5, (f) => 3 - 2 * f, 'time (s),dark,light\n').replace(/,(?=[\d.]+$)/gm, ',0.5,')]);
   await fitted('down.csv');
@@ -382,7 +380,7 @@ test('a channel of the sync gives the delay, and its way; what is outside of a w
   assert.equal(await focused(), 'sync');
   await page.fill('#trace [name=sync]', '3');
   await page.until(() => designer.model.now.scene.delay !== null && !designer.model.busy);
-  assert.ok(Math.abs(Number(await page.value('#delay')) - 3) < 0.02, await page.value('#delay'));
+  assert.ok(Math.abs(await number('delay') - 3) < 0.02, await page.value('#delay'));
   assert.equal(await page.value('#sync_falls'), 'true');
   assert.match(await facts(), /Sync(2\.9|3\.0)\d* /);
   // In the unit of the file's times.
@@ -775,8 +773,7 @@ test('a clipped trace is doubted on the screen, in every form, link and row', as
   JSON.parse(await copied('json'));
   const link = await copiedBy(() => page.click('#link'));
   // A hand on a handle does not make the trace a better one.
-  await drag('open_end', 20, 0);
-  await page.mouse.up();
+  await dragged('open_end', 20, 0);
   assert.match(await facts(), /clipped: \d+ %/);
   await follow(link);
   assert.match(await facts(), /clipped: \d+ %/);
@@ -817,8 +814,7 @@ test('what is told goes when its cause goes, and a hand ends no fit', async () =
   await hold();
   await drop(['bench.csv', trace()]);
   await page.waitForSelector('#busy:not([hidden])');
-  await drag('open_end', 20, 0);
-  await page.mouse.up();
+  await dragged('open_end', 20, 0);
   assert.ok(await page.isSeen('#busy'));
   const shown = await curve();
   await page.evaluate(() => release());

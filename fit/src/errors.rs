@@ -118,15 +118,16 @@ impl Results {
 /// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by
 /// its Akaike weight, with its own variance and how far it lies from this one.
 pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
-    let mut chosen = OfKind::new(fits, kind).results(n);
+    let chosen = OfKind::new(fits, kind).results(n);
     let freer = &Kind::ALL[kind as usize..];
     let least = freer.iter().map(|k| fits.aic(*k)).fold(f64::INFINITY, f64::min);
     let weights = freer.iter().map(|k| (*k, (0.5 * (least - fits.aic(*k))).exp()));
     let sum: f64 = weights.clone().map(|(_, weight)| weight).sum();
     let all: Vec<(f64, Results)> = weights
         .filter(|(_, weight)| *weight > 1e-3 * sum)
-        .map(|(k, weight)| (weight / sum, OfKind::new(fits, k).results(n)))
+        .map(|(k, weight)| (weight / sum, if k == kind { chosen.clone() } else { OfKind::new(fits, k).results(n) }))
         .collect();
+    let mut chosen = chosen;
     let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
         let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
         to.error = all.iter().map(|(w, results)| w * variance(of(results))).sum::<f64>().sqrt();
@@ -154,7 +155,7 @@ struct OfKind<'a> {
     is_peak: bool,
     /// For how long nobody knows the shape of each ramp's foot.
     feet: [f64; 2],
-    /// The standard error of a soft curve's length.
+    /// The standard error of the whole length, by the noise.
     length: f64,
 }
 
@@ -163,20 +164,22 @@ impl<'a> OfKind<'a> {
         let integral = fits.exposure(kind);
         let curve = integral.curve;
         let is_straight = kind <= Kind::Trapezoid;
-        let mut of = Self {
+        let covariance = Covariance::new(fits, kind);
+        let length = covariance.error(&Curve::LENGTH);
+        let mut of_kind = Self {
             fits,
             kind,
             integral,
-            covariance: Covariance::new(fits, kind),
+            covariance,
             is_straight,
             is_peak: curve.plateau < PEAK * curve.length(),
             feet: if is_straight { [0.0; 2] } else { integral.feet(FOOT) },
-            length: 0.0,
+            length,
         };
         if !is_straight {
-            of.length = of.searched(Whole::Length, of.covariance.error(&Curve::LENGTH));
+            of_kind.length = of_kind.searched(Whole::Length, length);
         }
-        of
+        of_kind
     }
 
     fn results(&self, n: u32) -> Results {
@@ -207,8 +210,7 @@ impl<'a> OfKind<'a> {
             let moves = std::array::from_fn(|k| (whole[k] - value * Curve::LENGTH[k]) / length);
             return Measured { value, error: self.covariance.error(&moves) };
         }
-        let noise = if self.is_straight { self.covariance.error(&Curve::LENGTH) } else { self.length };
-        let ends = self.feet.into_iter().fold(noise, f64::hypot);
+        let ends = self.feet.into_iter().fold(self.length, f64::hypot);
         Measured { value, error: (light / length).hypot(value * ends / length) }
     }
 
@@ -243,7 +245,9 @@ impl<'a> OfKind<'a> {
         if self.is_straight {
             return linear;
         }
-        (self.length * ramps / (opening + closing)).hypot(linear.min(self.length))
+        // Where there is no ramp, nothing says where the length is hidden.
+        let share = if opening + closing > 0.0 { ramps / (opening + closing) } else { 1.0 };
+        (self.length * share).hypot(linear.min(self.length))
     }
 
     fn triggers(&self, n: u32) -> Vec<Measured> {
@@ -269,8 +273,10 @@ impl<'a> OfKind<'a> {
         let side = |way: f64| {
             // Where the linear error is unknown, not a number, `min` takes the other.
             let mut by = (SIDE * linear).min(0.1 * value).max(least);
+            let mut near = self.fits.of(self.kind).solution.signal;
             for _ in 0..8 {
-                let cost = self.fits.cost_of(self.kind, whole, way * by) / (SIDE * SIDE * self.covariance.variance);
+                let cost = self.fits.cost_of(self.kind, whole, way * by, &mut near);
+                let cost = cost / (SIDE * SIDE * self.covariance.variance);
                 if (0.8..1.25).contains(&cost) {
                     break;
                 }

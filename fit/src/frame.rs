@@ -114,8 +114,9 @@ impl FrameFits {
         fractions(n).map(|u| exposure.trigger(u).0).collect()
     }
 
-    /// By how much a kind's sum of squares grows if its curve is to have so much more of something.
-    pub fn cost_of(&self, kind: Kind, whole: Whole, more: f64) -> f64 {
+    /// By how much a kind's sum of squares grows if its curve is to have so much more of something. `near` becomes the
+    /// best signal with that.
+    pub fn cost_of(&self, kind: Kind, whole: Whole, more: f64, near: &mut Signal) -> f64 {
         let solution = &self.of(kind).solution;
         let target = whole.of(&solution.signal.curve).0 + more;
         // Stiff enough to be kept to a hundredth, without any noise too.
@@ -123,7 +124,8 @@ impl FrameFits {
         let weight = 1e4 * solution.cost.max(least) / (more * more);
         let held = Some(Held { whole, target, weight });
         let stiff = Problem { held, ..self.problem.clone() };
-        self.problem.at(&stiff.minimise(&solution.signal).signal).cost - solution.cost
+        *near = stiff.minimise(near).signal;
+        self.problem.at(near).cost - solution.cost
     }
 }
 

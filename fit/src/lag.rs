@@ -54,7 +54,7 @@ impl<'a> Movable<'a> {
         let mut moves = vec![0.0; solution.signal.len()];
         let (mut rows, mut missed) = (Vec::new(), Vec::new());
         for bin in bins {
-            missed.push(bin.mean - means.over(bin.from, bin.to, &mut moves));
+            missed.push(bin.mean - means.over(bin.from, bin.to, &mut moves).0);
             rows.push(places.iter().map(|k| moves[*k]).collect());
         }
         Self { solution, bins, places, factor, rows, missed }
@@ -102,7 +102,7 @@ pub fn score(pattern: &[f64], missed: &[f64], bins: &[Bin]) -> (f64, f64) {
 /// What a capacitor's charge takes from each bin: as much as has come by then, to first order.
 pub fn charge(solution: &Solution, bins: &[Bin]) -> Vec<f64> {
     let exposure = Exposure::new(&solution.signal.curve);
-    bins.iter().map(|bin| -exposure.collected(bin.middle()).amount).collect()
+    bins.iter().map(|bin| -exposure.amount(bin.middle())).collect()
 }
 
 /// What the sum of squares falls by with a pattern in place of the signal's drift and hum, and what with these; less

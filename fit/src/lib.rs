@@ -142,7 +142,11 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
     let Structure { mut test, hidden, .. } = structure::structure(fits, judged);
     test.at = fits.units.seconds(test.at);
     let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
-    let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
+    let from_trace = match chosen {
+        _ if test.explained => None,
+        Kind::Free => running::results(fits, Kind::Free, &model, n),
+        _ => running::results(fits, Kind::Free, &errors::results(fits, Kind::Free, 1), n),
+    };
     let from = if from_trace.is_some() { From::Trace } else { From::Model };
     let results = match from_trace {
         Some(mut results) => {

@@ -35,7 +35,7 @@ pub struct UnitRamp {
 }
 
 /// What a ramp is at a time.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct At {
     pub openness: f64,
     pub area: f64,
@@ -63,38 +63,53 @@ impl UnitRamp {
 
     /// The ramp at the share `z` of its length, which is clamped to [0, 1].
     pub fn at(&self, z: f64) -> At {
-        if z.is_nan() || z <= 0.0 {
-            return At::default();
-        }
-        let p = if z < 1.0 { self.place(z) } else { 1.0 };
-        let integral = |c: &Integral| p * p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * c[4]))));
-        At { openness: cubic(self.y, p), area: integral(&self.area), moves: self.moves.each_ref().map(integral) }
+        let p = self.place(z);
+        let moves = self.moves.each_ref().map(|integral| up_to(integral, p));
+        At { openness: cubic(self.y, p), area: up_to(&self.area, p), moves }
+    }
+
+    /// The openness alone.
+    pub fn openness(&self, z: f64) -> f64 {
+        cubic(self.y, self.place(z))
+    }
+
+    /// The area alone.
+    pub fn area(&self, z: f64) -> f64 {
+        up_to(&self.area, self.place(z))
     }
 
     pub fn reaches(&self, openness: f64) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if self.at(middle).openness < openness { low = middle } else { high = middle }
+            if self.openness(middle) < openness { low = middle } else { high = middle }
         }
         0.5 * (low + high)
     }
 
-    /// The place `p` at which the time is `z`: Newton's method inside a bracket that is halved where that leaves it.
+    /// The place `p` at which the time is `z`: Halley's method inside a bracket that is halved where that leaves it. A
+    /// step from so near that the next one would change nothing is the last.
     ///
     /// The error that is left in `p` counts for next to nothing: the integral at a fixed time is the same to first
     /// order.
     fn place(&self, z: f64) -> f64 {
+        if z.is_nan() || z <= 0.0 {
+            return 0.0;
+        }
+        if z >= 1.0 {
+            return 1.0;
+        }
         let (mut low, mut high) = (0.0, 1.0);
         let mut p = z;
+        let [a, b, c] = self.x;
         for _ in 0..60 {
-            let missing = cubic(self.x, p) - z;
-            if missing.abs() <= 1e-14 {
-                break;
-            }
+            let missing = p * (a + p * (b + p * c)) - z;
             (low, high) = if missing < 0.0 { (p, high) } else { (low, p) };
-            let [a, b, c] = self.x;
-            let next = p - missing / (a + p * (2.0 * b + p * 3.0 * c));
+            let (slope, bend) = (a + p * (2.0 * b + p * 3.0 * c), b + p * 3.0 * c);
+            let next = p - missing * slope / (slope * slope - missing * bend);
+            if missing.abs() <= 1e-7 {
+                return next.clamp(low, high);
+            }
             p = if next > low && next < high { next } else { 0.5 * (low + high) };
         }
         p
@@ -108,6 +123,10 @@ fn powers(first: f64, second: f64) -> [f64; 3] {
 
 fn cubic([a, b, c]: [f64; 3], p: f64) -> f64 {
     p * (a + p * (b + p * c))
+}
+
+fn up_to(c: &Integral, p: f64) -> f64 {
+    p * p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * c[4]))))
 }
 
 /// `∫₀ᵖ f g' dp` of two cubics without a constant term.

@@ -40,8 +40,9 @@ struct Running {
     wanders: f64,
 }
 
-/// The results of the samples, or none where there is too little dark beside them.
-pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
+/// The results of the samples, or none where there is too little dark beside them. What they do not tell is as in the
+/// `model` of this kind.
+pub fn results(fits: &FrameFits, kind: Kind, model: &Results, n: u32) -> Option<Results> {
     let running = Running::new(fits, kind)?;
     let integral = fits.exposure(kind);
     let (end, area) = *running.sums.last()?;
@@ -52,7 +53,6 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
     let value = area / level;
     let exposure = Measured { value, error: (noise / level).hypot(value * spread / level) };
     let of_length = fits.of(kind).solution.signal.curve.length();
-    let model = crate::errors::results(fits, kind, 1);
     let value = exposure.value / of_length;
     let error = (exposure.error / of_length).hypot(model.efficiency.error);
     // No shutter lets more light in than one that is open all the time.
@@ -71,7 +71,7 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
     let triggers: Vec<Measured> = fractions(n).map(trigger).collect();
     // No trace shows where a ramp's foot starts, so that is the model's, as well as it meets the middle of the
     // exposure; but nothing is triggered before the shutter opens.
-    let apart = model.triggers.first().map_or(0.0, |m| m.value - running.reaches(0.5 * area));
+    let apart = integral.trigger(0.5).0 - running.reaches(0.5 * area);
     let earliest = triggers.first().map_or(f64::INFINITY, |first| first.value);
     let value = model.start.value.min(earliest).min(running.early.unwrap_or(f64::INFINITY));
     let error = model.start.error.hypot(apart).hypot(model.start.value - value);

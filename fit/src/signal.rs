@@ -246,7 +246,7 @@ impl Signal {
     /// What it misses of each bin.
     pub(super) fn missed(&self, bins: &[Bin]) -> Vec<f64> {
         let (mut means, mut moves) = (self.means(), vec![0.0; self.len()]);
-        bins.iter().map(|bin| bin.mean - means.over(bin.from, bin.to, &mut moves)).collect()
+        bins.iter().map(|bin| bin.mean - means.over(bin.from, bin.to, &mut moves).0).collect()
     }
 
     /// What works the signal's means out.
@@ -264,23 +264,30 @@ pub struct Means<'a> {
 }
 
 impl Means<'_> {
-    /// The mean over [`from`, `to`], and how it moves with each parameter.
-    pub fn over(&mut self, from: f64, to: f64, moves: &mut [f64]) -> f64 {
+    /// The mean over [`from`, `to`], how it moves with each parameter, and the first of these that it moves with: where
+    /// the curve is flat, none of the curve's.
+    pub fn over(&mut self, from: f64, to: f64, moves: &mut [f64]) -> (f64, usize) {
         let Signal { kind, dark, gain, drift, hum, flicker, .. } = *self.signal;
-        let start = match self.last {
-            Some((end, collected)) if end == from => collected,
-            _ => self.exposure.collected(from),
-        };
-        let end = self.exposure.collected(to);
-        self.last = Some((to, end));
         let width = to - from;
-        let openness = (end.amount - start.amount) / width;
         let middle = 0.5 * (from + to);
         let lamp = self.signal.lamp(middle, width);
-        let each = std::array::from_fn(|k| gain * lamp / width * (end.moves[k] - start.moves[k]));
         // In the order of `Signal::pack`.
         let (of_curve, beside) = moves.split_at_mut(kind.parameters());
-        kind.gather(&each, of_curve);
+        let is_flat = self.exposure.is_flat(from, to);
+        let openness = if is_flat {
+            of_curve.fill(0.0);
+            self.exposure.mean(from, to)
+        } else {
+            let start = match self.last {
+                Some((end, collected)) if end == from => collected,
+                _ => self.exposure.collected(from),
+            };
+            let end = self.exposure.collected(to);
+            self.last = Some((to, end));
+            let each = std::array::from_fn(|k| gain * lamp / width * (end.moves[k] - start.moves[k]));
+            kind.gather(&each, of_curve);
+            (end.amount - start.amount) / width
+        };
         let (levels, mut columns) = beside.split_at_mut(2);
         levels.copy_from_slice(&[1.0, openness * lamp]);
         let mut mean = dark + gain * openness * lamp;
@@ -299,6 +306,6 @@ impl Means<'_> {
             let waves = flicker.waves(middle, width);
             columns.copy_from_slice(&waves.map(|wave| gain * openness * wave));
         }
-        mean
+        (mean, if is_flat { kind.parameters() } else { 0 })
     }
 }

@@ -1,7 +1,8 @@
 //! Least squares: the parameters of a signal that pass its bins most closely.
 //!
 //! Levenberg and Marquardt's method with bounds: a parameter that lies on its bound and would leave it stands still for
-//! a step, and a step that leaves a bound ends on it.
+//! a step; where a step would leave a bound, it ends on it, and the other parameters make up for that. What the misses'
+//! own curvature adds is learnt from how the gradient changes, by the symmetric rank-one update.
 
 use crate::bins::Bin;
 use crate::curve::Whole;
@@ -42,14 +43,14 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Adds the square of a miss that moves so with the parameters.
-    fn add(&mut self, weight: f64, miss: f64, moves: &[f64]) {
+    /// Adds the square of a miss that moves so with the parameters, from the `first` on.
+    fn add(&mut self, weight: f64, miss: f64, moves: &[f64], first: usize) {
         self.cost += weight * miss * miss;
-        for (i, row) in self.normal.iter_mut().enumerate() {
+        for (i, row) in self.normal.iter_mut().enumerate().skip(first) {
             let weighted = weight * moves[i];
             if weighted != 0.0 {
                 self.gradient[i] += weighted * miss;
-                for (cell, m) in row[..=i].iter_mut().zip(moves) {
+                for (cell, m) in row[first..=i].iter_mut().zip(&moves[first..]) {
                     *cell += weighted * m;
                 }
             }
@@ -80,41 +81,45 @@ impl Problem {
         let mut solution = Solution { signal: *signal, cost: 0.0, normal, gradient };
         let mut means = signal.means();
         for bin in &self.bins {
-            let miss = means.over(bin.from, bin.to, &mut moves) - bin.mean;
-            solution.add(bin.samples, miss, &moves);
+            let (mean, first) = means.over(bin.from, bin.to, &mut moves);
+            solution.add(bin.samples, mean - bin.mean, &moves, first);
         }
         let packed = signal.pack();
         for (k, straight) in signal.controls() {
             moves.fill(0.0);
             moves[k] = 1.0;
-            solution.add(self.prior, packed[k] - straight, &moves);
+            solution.add(self.prior, packed[k] - straight, &moves, k);
         }
         if let Some(Held { whole, target, weight }) = self.held {
             let (value, each) = whole.of(&signal.curve);
             moves.fill(0.0);
             signal.kind.gather(&each, &mut moves);
-            solution.add(weight, value - target, &moves);
+            solution.add(weight, value - target, &moves, 0);
         }
         solution
     }
 
     /// The best signal near `start`.
     pub fn minimise(&self, start: &Signal) -> Solution {
-        let bounds = start.bounds();
         let mut here = self.at(start);
-        let (mut damping, mut idle) = (1e-3, 0);
+        let n = here.gradient.len();
+        let straight = vec![vec![0.0; n]; n];
+        let (mut bend, mut damping, mut idle) = (straight.clone(), 1e-3, 0);
         for _ in 0..STEPS {
-            let packed = here.signal.pack();
-            let next = step(&here, &packed, &bounds, damping).map(|to| self.at(&start.unpack(&to)));
+            let to = step(&here, &bend, damping).or_else(|| step(&here, &straight, damping));
+            let next = to.map(|to| self.at(&start.unpack(&to)));
+            if let Some(next) = &next {
+                learn(&mut bend, &here, next);
+            }
             match next {
                 Some(next) if next.cost < here.cost => {
                     let gain = (here.cost - next.cost) / here.cost;
                     here = next;
-                    damping = f64::max(damping * 0.2, 1e-12);
+                    damping = f64::max(damping * 0.4, 1e-12);
                     idle = if gain < LITTLE { idle + 1 } else { 0 };
                 }
                 _ => {
-                    damping *= 4.0;
+                    damping *= 8.0;
                     idle += usize::from(damping > 1e4);
                 }
             }
@@ -127,19 +132,50 @@ impl Problem {
 }
 
 /// The parameters a damped step on.
-fn step(here: &Solution, packed: &[f64], bounds: &[(f64, f64)], damping: f64) -> Option<Vec<f64>> {
-    let moving = here.moving();
-    let mut matrix = here.normal_of(&moving);
-    for (k, row) in matrix.iter_mut().enumerate() {
-        row[k] = row[k] * (1.0 + damping) + 1e-12;
+fn step(here: &Solution, bend: &[Vec<f64>], damping: f64) -> Option<Vec<f64>> {
+    let (from, bounds) = (here.signal.pack(), here.signal.bounds());
+    let cell = |i: usize, j: usize| {
+        let stiff = if i == j { damping * here.normal[i][i] + 1e-12 } else { 0.0 };
+        here.normal[i.max(j)][i.min(j)] + bend[i][j] + stiff
+    };
+    let (mut to, mut free) = (from.clone(), here.moving());
+    loop {
+        let matrix = free.iter().map(|i| free.iter().map(|j| cell(*i, *j)).collect()).collect();
+        let moved = |i: usize| (0..from.len()).map(|j| cell(i, j) * (to[j] - from[j])).sum::<f64>();
+        let right: Vec<f64> = free.iter().map(|i| -here.gradient[*i] - moved(*i)).collect();
+        let by = Cholesky::new(matrix)?.solve(&right);
+        let mut inside = Vec::new();
+        for (k, by) in free.iter().zip(by) {
+            let (k, (low, high)) = (*k, bounds[*k]);
+            to[k] = (from[k] + by).clamp(low, high);
+            if to[k] == from[k] + by {
+                inside.push(k);
+            }
+        }
+        if inside.is_empty() || inside.len() == free.len() {
+            return Some(to);
+        }
+        inside.iter().for_each(|k| to[*k] = from[*k]);
+        free = inside;
     }
-    let right: Vec<f64> = moving.iter().map(|k| -here.gradient[*k]).collect();
-    let by = Cholesky::new(matrix)?.solve(&right);
-    let mut to = packed.to_vec();
-    for (k, by) in moving.into_iter().zip(by) {
-        to[k] = (to[k] + by).clamp(bounds[k].0, bounds[k].1);
+}
+
+/// Corrects the curvature that is not in the normal equations by a step.
+fn learn(bend: &mut [Vec<f64>], here: &Solution, next: &Solution) {
+    let by: Vec<f64> = next.signal.pack().iter().zip(here.signal.pack()).map(|(to, from)| to - from).collect();
+    let told = |i: usize| {
+        let row = bend[i].iter().enumerate();
+        let along = row.map(|(j, bend)| (next.normal[i.max(j)][i.min(j)] + bend) * by[j]).sum::<f64>();
+        next.gradient[i] - here.gradient[i] - along
+    };
+    let rest: Vec<f64> = (0..by.len()).map(told).collect();
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let along = product(&rest, &by);
+    if along.abs() > 1e-8 * (product(&rest, &rest) * product(&by, &by)).sqrt() {
+        for (row, a) in bend.iter_mut().zip(&rest) {
+            row.iter_mut().zip(&rest).for_each(|(cell, b)| *cell += a * b / along);
+        }
     }
-    Some(to)
 }
 
 /// `A = L Lᵀ` of a symmetric, positive matrix, which is read up to its diagonal.

@@ -19,7 +19,7 @@ use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path}
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
 use super::sensors;
-use crate::emit::module;
+use crate::emit::Form;
 use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
@@ -384,7 +384,7 @@ fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
     };
     let plan: String = scenes.iter().map(|scene| quoted(scene)).collect();
     let to = match scenes {
-        [one] => quoted(&one.with_file_name(module(&stem(one)) + ".rs")),
+        [one] => quoted(&one.with_file_name(Form::Rust.file(&stem(one)))),
         _ => " shutters.rs".into(),
     };
     let first = match lacks {

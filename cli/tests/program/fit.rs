@@ -228,7 +228,7 @@ fn pulses_that_the_record_cuts_are_left_out() {
     let ways = [(Light::Auto, 1.0), (Light::Up, 1.0), (Light::Down, -1.0)];
     for (light, sign) in ways {
         // In a plateau, in a ramp.
-        for begin in [2.0, 0.5, 3.0] {
+        for begin in [2.0, 0.5] {
             is(of_train(4.0, [begin, 35.0], light, sign), 4.0, 1);
             is(of_train(4.0, [begin, 38.0], light, sign), 4.0, 2);
         }
@@ -298,7 +298,7 @@ fn a_tolerance_asks_for_the_simplest_within_it() {
 fn correlated_samples_count_for_fewer() {
     // Of a noise that is correlated by 0.8 from one sample to the next, nine are as good as an independent one.
     for (disturbance, least, most) in [(Disturbance::White, 0.8, 1.0), (Disturbance::Coloured, 0.07, 0.18)] {
-        for seed in 0..5 {
+        for seed in 0..2 {
             let mut random = Random::new(seed);
             let truth = truth(Shutter::Trapezoid, &mut random);
             let case = traced(truth, disturbance, 3000, 0.01, &mut random);
@@ -335,7 +335,7 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
 /// it.
 #[test]
 fn the_exposure_is_known_without_a_plateau_too() {
-    let covered = each(48, |seed| {
+    let covered = each(24, |seed| {
         let mut random = Random::new(700 + u64::from(seed));
         let [start, peak, end] = [0.2, random.within(0.3, 0.6), random.within(0.65, 0.8)];
         let straight: fn(f64) -> f64 = |z| z;
@@ -417,7 +417,7 @@ fn every_corner_of_the_control_numbers_is_a_scene() {
         let [opening, closing] = [bezier(controls), bezier(controls)];
         let truth = Truth::new(opening, closing, [0.2, 0.4, 0.5, 0.8]);
         let mut random = Random::new(corner.into());
-        let case = traced(truth, Disturbance::White, 600, 0.0, &mut random);
+        let case = traced(truth, Disturbance::White, 200, 0.0, &mut random);
         for model in [Kind::Symmetric, Kind::Free] {
             let options = Options { model: Some(model), ..Options::default() };
             planned(&case.fitted(&options), Zero::Trace);
@@ -787,7 +787,7 @@ fn tails_are_looked_at_to_their_end() {
         plainly(&Trace { times, values })
     };
     let decay = |t: f64| (t / 2e-4).clamp(0.0, 1.0) * (-(t - 2e-4).max(0.0) / 7e-4).exp();
-    each(8, |seed| {
+    each(4, |seed| {
         let fit = sampled(&decay, [-0.02, 0.03], 3000, u64::from(seed));
         let off = (fit.exposure.value - 8e-4).abs();
         assert!(off < (2.5 * fit.exposure.error).min(4e-5), "{seed}: {:?}", fit.exposure);

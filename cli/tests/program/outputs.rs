@@ -15,19 +15,21 @@ fn folder(name: &str) -> Folder {
     folder
 }
 
-/// Runs the program with these arguments, by a shell.
-fn run(folder: &Folder, args: &str) -> Run {
-    folder.shell(&format!("exec \"$shutter\" {args}"))
-}
+impl Folder {
+    /// Runs the program with these arguments, by a shell.
+    fn exec(&self, args: &str) -> Run {
+        self.shell(&format!("exec \"$shutter\" {args}"))
+    }
 
-/// Each run is refused for this reason, and all files are as they were.
-#[track_caller]
-fn refuses(folder: &Folder, runs: &[(&str, &str)]) {
-    for (args, reason) in runs {
-        let before = folder.all();
-        let run = run(folder, args);
-        assert!(run.code == Some(2) && run.err.contains(reason), "{args}: {run:?}");
-        assert!(folder.all() == before, "{args}");
+    /// Each run is refused for this reason, and all files are as they were.
+    #[track_caller]
+    fn keeps(&self, runs: &[(&str, &str)]) {
+        for (args, reason) in runs {
+            let before = self.all();
+            let run = self.exec(args);
+            assert!(run.code == Some(2) && run.err.contains(reason), "{args}: {run:?}");
+            assert!(self.all() == before, "{args}");
+        }
     }
 }
 
@@ -53,15 +55,12 @@ fn an_output_that_is_an_input_is_refused_by_any_name() {
         "plan scene.toml --emit c --to scene.toml",
         "fit a.toml b.toml --out .",
     ] {
-        refuses(&folder, &[(args, "it is the input"), (&format!("{args} --force"), "it is the input")]);
+        folder.keeps(&[(args, "it is the input"), (&format!("{args} --force"), "it is the input")]);
     }
-    refuses(
-        &folder,
-        &[
-            ("plan scene.toml --emit rust >> scene.toml", "standard output"),
-            ("fit - --out trace.csv --force < trace.csv", "standard input"),
-        ],
-    );
+    folder.keeps(&[
+        ("plan scene.toml --emit rust >> scene.toml", "standard output"),
+        ("fit - --out trace.csv --force < trace.csv", "standard input"),
+    ]);
 }
 
 #[test]
@@ -72,23 +71,20 @@ fn two_outputs_of_one_file_are_refused() {
     folder.write("sub/trace.csv", leaf(2.0));
     folder.write("old.svg", "old");
     fs::hard_link(folder.path("old.svg"), folder.path("hard.svg")).unwrap();
-    refuses(
-        &folder,
-        &[
-            ("plan --out new.svg --set-ups new.svg", "two outputs"),
-            ("plan --out new.svg --set-ups sub/../new.svg", "two outputs"),
-            ("plan --out new.svg --set-ups link.svg", "two outputs"),
-            ("plan --force --out old.svg --set-ups hard.svg", "two outputs"),
-            ("plan --out new.svg --emit c --to new.svg", "two outputs"),
-            ("fit trace.csv --out new.svg --picture new.svg", "two outputs"),
-            ("fit trace.csv sub/trace.csv --out .", "two outputs"),
-            ("plan --out - --emit c --to -", "standard output"),
-            ("plan --out - --emit c", "standard output"),
-            ("fit trace.csv --picture - --report json", "standard output"),
-            ("fit - -", "standard input"),
-            ("plan --force --out old.svg >> old.svg", "standard output"),
-        ],
-    );
+    folder.keeps(&[
+        ("plan --out new.svg --set-ups new.svg", "two outputs"),
+        ("plan --out new.svg --set-ups sub/../new.svg", "two outputs"),
+        ("plan --out new.svg --set-ups link.svg", "two outputs"),
+        ("plan --force --out old.svg --set-ups hard.svg", "two outputs"),
+        ("plan --out new.svg --emit c --to new.svg", "two outputs"),
+        ("fit trace.csv --out new.svg --picture new.svg", "two outputs"),
+        ("fit trace.csv sub/trace.csv --out .", "two outputs"),
+        ("plan --out - --emit c --to -", "standard output"),
+        ("plan --out - --emit c", "standard output"),
+        ("fit trace.csv --picture - --report json", "standard output"),
+        ("fit - -", "standard input"),
+        ("plan --force --out old.svg >> old.svg", "standard output"),
+    ]);
 }
 
 #[test]
@@ -96,16 +92,13 @@ fn a_file_of_something_else_needs_force() {
     let folder = folder("force");
     folder.write("notes", "what I measured\n");
     symlink("notes", folder.path("link.svg")).unwrap();
-    refuses(
-        &folder,
-        &[
-            ("fit trace.csv --out notes", "--force"),
-            ("plan --out link.svg", "--force"),
-            ("plan --emit csv --to notes", "--force"),
-            ("fit trace.csv --picture link.svg", "--force"),
-        ],
-    );
-    run(&folder, "plan --emit csv --to notes --force").well();
+    folder.keeps(&[
+        ("fit trace.csv --out notes", "--force"),
+        ("plan --out link.svg", "--force"),
+        ("plan --emit csv --to notes", "--force"),
+        ("fit trace.csv --picture link.svg", "--force"),
+    ]);
+    folder.exec("plan --emit csv --to notes --force").well();
     assert!(folder.text("notes").starts_with("scene,index,"));
     assert!(folder.path("link.svg").is_symlink());
     // What it wrote is replaced while nobody has changed it: by its mark, or by the same bytes where it has none.
@@ -113,12 +106,12 @@ fn a_file_of_something_else_needs_force() {
         let (file, line) = (format!("made.{form}"), format!("plan --emit {form} --to made.{form}"));
         let wrote = format!("wrote {file}\n");
         for _ in 0..2 {
-            assert_eq!(run(&folder, &line).well().err, wrote);
+            assert_eq!(folder.exec(&line).well().err, wrote);
         }
         let (has_mark, other) = (matches!(form, "rust" | "c"), format!("{line} --triggers 5"));
         match has_mark {
-            true => drop(run(&folder, &other).well()),
-            false => refuses(&folder, &[(&other, "a table does not tell whose")]),
+            true => drop(folder.exec(&other).well()),
+            false => folder.keeps(&[(&other, "a table does not tell whose")]),
         }
         let text = folder.text(&file);
         let changed = if has_mark { "you have changed it since" } else { "--force" };
@@ -130,33 +123,30 @@ fn a_file_of_something_else_needs_force() {
             (format!("mine {text}"), "--force"),
         ] {
             folder.write(&file, edited);
-            refuses(&folder, &[(&line, reason)]);
+            folder.keeps(&[(&line, reason)]);
         }
         // Editors may do these.
         for edited in [format!("\u{feff}{text}"), text.replace('\n', "\r\n")] {
             folder.write(&file, &edited);
             let line = if has_mark { line.clone() } else { format!("{line} --force") };
-            assert_eq!(run(&folder, &line).well().err, wrote);
+            assert_eq!(folder.exec(&line).well().err, wrote);
             assert_ne!(folder.text(&file), edited);
         }
     }
     // The checksum of older versions, as it is published with the algorithm.
     folder.write("old.h", "/* Checksum bf9cf968 of the lines below: `shutter` replaces them while it holds */\nfoobar");
-    run(&folder, "plan --emit c --to old.h").well();
+    folder.exec("plan --emit c --to old.h").well();
     for _ in 0..2 {
-        run(&folder, "plan --out made.svg --set-ups both.svg").well();
+        folder.exec("plan --out made.svg --set-ups both.svg").well();
     }
-    run(&folder, "fit trace.csv --picture made.svg").well();
+    folder.exec("fit trace.csv --picture made.svg").well();
     folder.write("made.svg", folder.text("made.svg").replace("<svg ", "<svg  "));
     // A scene holds what its user wrote whether or not its mark does.
-    run(&folder, "fit trace.csv --out leaf.toml").well();
-    refuses(
-        &folder,
-        &[
-            ("fit trace.csv --picture made.svg", "you have changed it since"),
-            ("plan --emit rust --to leaf.toml", "--force"),
-        ],
-    );
+    folder.exec("fit trace.csv --out leaf.toml").well();
+    folder.keeps(&[
+        ("fit trace.csv --picture made.svg", "you have changed it since"),
+        ("plan --emit rust --to leaf.toml", "--force"),
+    ]);
 }
 
 /// What cannot be written is told before a trace is even read; what fails after the fit leaves its report.
@@ -165,16 +155,13 @@ fn a_fit_is_not_lost_with_its_files() {
     let folder = folder("late");
     folder.write("notes", "mine\n");
     symlink("notes", folder.path("notes.svg")).unwrap();
-    refuses(
-        &folder,
-        &[
-            ("fit none.csv --out notes", "notes: it holds no scene that a fit wrote"),
-            ("fit none.csv --picture notes.svg", "notes.svg: it holds something else"),
-            ("fit none.csv --out none/leaf.toml", "its folder is not there"),
-            ("fit none.csv --out ok.toml --picture none/leaf.svg", "its folder is not there"),
-        ],
-    );
-    run(&folder, "fit trace.csv --out leaf.toml").well();
+    folder.keeps(&[
+        ("fit none.csv --out notes", "notes: it holds no scene that a fit wrote"),
+        ("fit none.csv --picture notes.svg", "notes.svg: it holds something else"),
+        ("fit none.csv --out none/leaf.toml", "its folder is not there"),
+        ("fit none.csv --out ok.toml --picture none/leaf.svg", "its folder is not there"),
+    ]);
+    folder.exec("fit trace.csv --out leaf.toml").well();
     folder.write("leaf.toml", folder.text("leaf.toml").replace("min_gap = 0 ", "min_gap = 9 "));
     // Five nanoseconds are too short for sixteen triggers.
     folder.write("ns.csv", leaf(1.0).replace("time_ms", "time_ns"));
@@ -182,10 +169,10 @@ fn a_fit_is_not_lost_with_its_files() {
         ("fit trace.csv --out leaf.toml", "with what it keeps"),
         ("fit ns.csv --out ns.toml", "ask for fewer triggers (--triggers)"),
     ] {
-        refuses(&folder, &[(args, reason)]);
-        assert!(run(&folder, args).out.contains("\nexposure     5.00"), "{args}");
+        folder.keeps(&[(args, reason)]);
+        assert!(folder.exec(args).out.contains("\nexposure     5.00"), "{args}");
     }
-    run(&folder, "fit ns.csv --out ns.toml --triggers 4").well();
+    folder.exec("fit ns.csv --out ns.toml --triggers 4").well();
 }
 
 #[test]
@@ -194,7 +181,7 @@ fn links_are_written_through_and_other_names_keep_what_they_had() {
     fs::create_dir(folder.path("far")).unwrap();
     symlink("far/new.svg", folder.path("link.svg")).unwrap();
     symlink("link.svg", folder.path("twice.svg")).unwrap();
-    run(&folder, "plan --out twice.svg").well();
+    folder.exec("plan --out twice.svg").well();
     assert!(folder.path("link.svg").is_symlink() && folder.path("twice.svg").is_symlink());
     assert!(folder.text("far/new.svg").contains("\n<svg "));
     // The mode stays, and a new file's is that of any new file.
@@ -208,15 +195,15 @@ fn links_are_written_through_and_other_names_keep_what_they_had() {
     assert!(folder.text("far/new.svg") != older && folder.text("other.svg") == older);
     assert!(folder.path("link.svg").is_symlink());
     symlink("round.svg", folder.path("round.svg")).unwrap();
-    refuses(&folder, &[("plan --out round.svg", "round.svg: ")]);
+    folder.keeps(&[("plan --out round.svg", "round.svg: ")]);
 }
 
 #[test]
 fn devices_and_pipes_are_written_to() {
     let folder = folder("streams");
-    run(&folder, "plan --out /dev/null --set-ups /dev/null").well();
-    let csv = run(&folder, "plan --emit csv").well().out;
-    assert_eq!(run(&folder, "plan --emit csv --to /dev/stdout").out, csv);
+    folder.exec("plan --out /dev/null --set-ups /dev/null").well();
+    let csv = folder.exec("plan --emit csv").well().out;
+    assert_eq!(folder.exec("plan --emit csv --to /dev/stdout").out, csv);
     let piped = "mkfifo pipe.svg; cat pipe.svg & $shutter plan --out pipe.svg > text; wait";
     for line in [piped, "$shutter plan --out -"] {
         let out = folder.shell(line).prints(&["\n<svg "]).out;
@@ -237,7 +224,7 @@ fn devices_and_pipes_are_written_to() {
 #[test]
 fn a_full_disk_leaves_the_old_files() {
     let folder = folder("full");
-    run(&folder, "plan --out a.svg --set-ups b.svg --emit c --to c.h").well();
+    folder.exec("plan --out a.svg --set-ups b.svg --emit c --to c.h").well();
     let line = "plan scene.toml --out a.svg --set-ups b.svg --emit c --to c.h --force";
     let mut refused = 0;
     for blocks in (0..200).step_by(5) {
@@ -252,13 +239,10 @@ fn a_full_disk_leaves_the_old_files() {
     }
     assert!(refused > 3, "{refused}");
     // A full device, standard output as well: then no file is new either.
-    refuses(
-        &folder,
-        &[
-            ("plan --out new.svg --emit c --to /dev/full", "No space left"),
-            ("plan --out new.svg > /dev/full", "No space left"),
-        ],
-    );
+    folder.keeps(&[
+        ("plan --out new.svg --emit c --to /dev/full", "No space left"),
+        ("plan --out new.svg > /dev/full", "No space left"),
+    ]);
 }
 
 /// Whenever it is killed while it writes, each file is the old one or the new one, whole.
@@ -268,7 +252,7 @@ fn a_kill_leaves_whole_files() {
     let files = || [folder.text("a.svg"), folder.text("c.h")];
     let plan = |n| format!("plan --triggers {n} --out a.svg --emit c --to c.h --force");
     let [old, new] = [3, 4].map(|n| {
-        run(&folder, &plan(n)).well();
+        folder.exec(&plan(n)).well();
         files()
     });
     let (mut killed, mut blocks) = (0, 0);
@@ -292,7 +276,7 @@ fn a_kill_leaves_whole_files() {
 fn two_runs_at_once_leave_one_of_theirs() {
     let folder = folder("race");
     let whole = [3, 4].map(|n| {
-        run(&folder, &format!("plan --triggers {n} --out {n}.svg")).well();
+        folder.exec(&format!("plan --triggers {n} --out {n}.svg")).well();
         folder.text(&format!("{n}.svg"))
     });
     for _ in 0..10 {
@@ -309,7 +293,7 @@ fn two_runs_at_once_leave_one_of_theirs() {
 #[test]
 fn a_file_that_changes_meanwhile_is_kept() {
     let folder = folder("meanwhile");
-    run(&folder, "fit trace.csv --out old.toml").well();
+    folder.exec("fit trace.csv --out old.toml").well();
     for out in ["old.toml", "new.toml"] {
         let line = format!(
             "mkfifo {out}.in; $shutter fit - --out {out} < {out}.in & exec 3> {out}.in; sleep 0.5\n\
@@ -328,26 +312,23 @@ fn what_cannot_be_written_leaves_nothing() {
     fs::create_dir(folder.path("taken.svg")).unwrap();
     folder.write("leaf.h", "/* old */\n");
     folder.write("bare.toml", TRAPEZOID);
-    refuses(
-        &folder,
-        &[
-            ("plan --set-ups ok.svg --out taken.svg", "it is a folder"),
-            ("plan --set-ups ok.svg --out none/new.svg", "its folder is not there"),
-            ("fit trace.csv --picture ok.svg --out none/leaf.toml", "its folder is not there"),
-            // A failed plan, and a form for which the scene lacks something.
-            ("plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers"),
-            ("plan bare.toml --out ok.svg --emit c --to leaf.h --force", "bare.toml: hardware needs"),
-        ],
-    );
+    folder.keeps(&[
+        ("plan --set-ups ok.svg --out taken.svg", "it is a folder"),
+        ("plan --set-ups ok.svg --out none/new.svg", "its folder is not there"),
+        ("fit trace.csv --picture ok.svg --out none/leaf.toml", "its folder is not there"),
+        // A failed plan, and a form for which the scene lacks something.
+        ("plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers"),
+        ("plan bare.toml --out ok.svg --emit c --to leaf.h --force", "bare.toml: hardware needs"),
+    ]);
     // Whoever made it read-only does not want it replaced, and root is no exception.
     fs::set_permissions(folder.path("leaf.h"), PermissionsExt::from_mode(0o444)).unwrap();
-    refuses(&folder, &[("plan --emit c --to leaf.h --force", "it is read-only")]);
+    folder.keeps(&[("plan --emit c --to leaf.h --force", "it is read-only")]);
     let locked = folder.path("locked");
     fs::create_dir(&locked).unwrap();
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o555)).unwrap();
     // Root may write there.
     if File::create(locked.join("probe")).is_err() {
-        refuses(&folder, &[("plan --set-ups ok.svg --out locked/new.svg", "permission denied")]);
+        folder.keeps(&[("plan --set-ups ok.svg --out locked/new.svg", "permission denied")]);
     }
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
 }
@@ -355,7 +336,7 @@ fn what_cannot_be_written_leaves_nothing() {
 #[test]
 fn a_new_fit_keeps_what_a_user_wrote() {
     let folder = folder("kept");
-    let fit = |args: &str| run(&folder, &format!("fit {args} --out leaf.toml")).well().err;
+    let fit = |args: &str| folder.exec(&format!("fit {args} --out leaf.toml")).well().err;
     let scene = || folder.text("leaf.toml");
     let wrote = "wrote leaf.toml\nnext: write set_up, timer_hz, sync_falls into the scene, then \
                  shutter plan leaf.toml --emit rust --to leaf.rs\n";
@@ -411,7 +392,7 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     // What is asked for counts, in the unit of the scene.
     let mine = "unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n";
     folder.write("leaf.toml", mine);
-    refuses(&folder, &[("fit trace.csv --out leaf.toml", "no scene that a fit wrote")]);
+    folder.keeps(&[("fit trace.csv --out leaf.toml", "no scene that a fit wrote")]);
     let (mark, _) = first.split_once('\n').unwrap();
     folder.write("leaf.toml", format!("{mark}\n{mine}"));
     fit("trace.csv --triggers 6");
@@ -432,7 +413,7 @@ fn a_new_fit_keeps_what_a_user_wrote() {
         ("[package]\nname = 'mine'\n".into(), "--force"),
     ] {
         folder.write("leaf.toml", text);
-        refuses(&folder, &[("fit trace.csv --out leaf.toml", reason)]);
+        folder.keeps(&[("fit trace.csv --out leaf.toml", reason)]);
     }
     fit("trace.csv --sync 0 --force");
     assert_eq!(scene(), first);
@@ -443,9 +424,9 @@ fn a_new_fit_keeps_what_a_user_wrote() {
 fn several_fits_keep_what_a_user_wrote() {
     let folder = folder("kept_speeds");
     folder.write("v1.5.csv", leaf(2.0));
-    run(&folder, "fit trace.csv v1.5.csv --out .").well();
+    folder.exec("fit trace.csv v1.5.csv --out .").well();
     folder.write("v1.5.toml", folder.text("v1.5.toml").replace("min_gap = 0 ", "min_gap = 0.2 "));
-    let err = run(&folder, "fit trace.csv v1.5.csv --nominal 1/200,1/100 --out .").well().err;
+    let err = folder.exec("fit trace.csv v1.5.csv --nominal 1/200,1/100 --out .").well().err;
     let told = "./v1.5.toml: kept min_gap = 0.2\nwrote ./trace.toml\nwrote ./v1.5.toml\nnext: ";
     assert!(err.starts_with(told), "{err}");
     assert!(folder.text("v1.5.toml").contains("nominal = 10\n"));

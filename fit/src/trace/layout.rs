@@ -319,22 +319,3 @@ impl Columns<'_> {
         self.table.columns.iter().copied().filter(is_alike).collect()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{is_counter, runs, unit_of_steps};
-    use crate::unit::Unit;
-
-    #[test]
-    fn numbers_tell_what_they_are() {
-        let times: Vec<f64> = (0..300).map(|i| f64::from(i / 5) - 20.0).collect();
-        let shots: Vec<f64> = (0..300).map(|i| f64::from(i % 60)).collect();
-        let gate: Vec<f64> = (0..300).map(|i| f64::from(u8::from(i > 100))).collect();
-        let pulse: Vec<f64> = (0..300).map(|i| f64::from((i - 150i32).abs())).collect();
-        let back: Vec<f64> = times.iter().rev().copied().collect();
-        assert!(runs(&times) && runs(&shots) && runs(&back) && !runs(&gate) && !runs(&pulse));
-        assert!(is_counter(&[-2.0, -1.0, 0.0]) && !is_counter(&[0.0, 2.0, 4.0]));
-        assert_eq!(unit_of_steps(&[0.0, 10.0, 20.0], 1e-5), Some(Unit::Microsecond));
-        assert_eq!(unit_of_steps(&[0.0, 20.0, 40.0], 1e-5), None);
-    }
-}

@@ -125,38 +125,3 @@ pub fn is_unit(field: &str) -> bool {
     let field = field.trim().trim_matches(['(', ')', '[', ']', '{', '}']).trim().to_lowercase();
     unit_of(&field).is_some() || has(SIGNALS, &field)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_tells_its_unit() {
-        use Said::{Nothing, Unclear};
-        for (said, names) in [
-            (Said::Unit(Unit::Second), "Time (s);Zeit  1 - Standardmessrate [s];t / s;in s;Second;Time_s"),
-            (Said::Unit(Unit::Millisecond), "TimeMs;tms;millis;Time in ms;Elapsed msecs"),
-            (Said::Unit(Unit::Microsecond), "micros();time_µs;esp_timer_us;(us)"),
-            (Said::Unit(Unit::Nanosecond), "Time[ns]"),
-            (Nothing, "Time;time[0];ts;CH1 (V);V/s;ms.A;leaf shutter in ms;shutter 8 ms;/records/s.wav;C:\\us\\ms.csv"),
-            (Unclear, "Time (tenths of ms);timer (half us);Time (s/div);Time (h:m:s);Time (10us);Time (1e-6 s)"),
-            (Unclear, "Time (min);time x 10 us;10us;hundreds of us;elapsed hours;Time x1000 (s);Time*1e6 (s);ms/100"),
-        ] {
-            names.split(';').for_each(|name| assert_eq!(unit_in(name), said, "{name}"));
-        }
-    }
-
-    #[test]
-    fn a_name_tells_what_it_is() {
-        let all = |is: fn(&str) -> bool, names: &str| names.split(';').all(is);
-        let none = |is: fn(&str) -> bool, names: &str| !names.split(';').any(is);
-        assert!(all(
-            is_time,
-            "Time;TIME (s);t_us;Fractional Seconds;Elapsed time;Zeit;time since start;time hundreds of us"
-        ));
-        assert!(none(is_time, "Real Time;Exposure time;Rise time (ms);TrigTime;CH1;x-axis"));
-        assert!(all(is_axis, "x-axis;X_Value;X") && none(is_axis, "X1;CH1"));
-        assert!(all(is_count, "No.;Sample;ticks") && none(is_count, "CH1;"));
-        assert!(all(is_unit, "(mV);Second") && none(is_unit, "ms/div;10us"));
-    }
-}

@@ -83,34 +83,3 @@ pub fn short_of(field: &str) -> String {
     let more = chars.next().map(|_| '…');
     start.chars().chain(once(more).flatten()).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::number;
-
-    #[test]
-    fn a_number_may_be_written_so() {
-        for (field, comma, value) in [
-            ("-1.5e-3", false, Some(-1.5e-3)),
-            ("+2", false, Some(2.0)),
-            ("0,25", true, Some(0.25)),
-            ("\u{2212}5.0", false, Some(-5.0)),
-            ("\u{2013}5,0", true, Some(-5.0)),
-            ("(5.00)", false, Some(-5.0)),
-            ("+    0.05", false, Some(0.05)),
-            ("- 12,5", true, Some(-12.5)),
-            ("-12\u{202f}345,5", true, Some(-12345.5)),
-            ("1'234.5", false, Some(1234.5)),
-            ("1 234.5", false, None),
-            ("12'34", false, None),
-            ("-OVL", false, Some(f64::NEG_INFINITY)),
-            ("(V)", false, None),
-            ("(-5)", false, None),
-            ("5 ms", false, None),
-            ("1,234,5", true, None),
-            ("", false, None),
-        ] {
-            assert_eq!(number(field, comma), value, "{field}");
-        }
-    }
-}

@@ -34,16 +34,3 @@ pub fn preview(bytes: &[u8], rows: usize) -> Result<Preview, Refusal> {
     let rows = table.rows().take(rows).map(row).collect();
     Ok(Preview { names, rows })
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_first_rows_are_those_of_the_numbers() {
-        let text = b"scope\nTime (ms);CH1\n0,5;1,25\n1,0;1,5\n1,5;2\n";
-        let preview = super::preview(text, 2).unwrap();
-        assert_eq!(preview.names, [Some("Time (ms)".to_string()), Some("CH1".to_string())]);
-        let rows = [(3, vec!["0,5".into(), "1,25".into()]), (4, vec!["1,0".into(), "1,5".into()])];
-        assert_eq!(preview.rows, rows);
-        assert!(super::preview(b"<html>", 2).is_err());
-    }
-}

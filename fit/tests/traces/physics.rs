@@ -208,6 +208,13 @@ fn a_tail_is_told() {
     assert!(told >= 23, "{told}");
 }
 
+/// A tail that the trace cuts off is no drift, though a line comes near to it.
+#[test]
+fn a_tail_is_no_drift() {
+    let rows = family_rows(Family::CutTail, 4, 1);
+    assert!(rows.iter().all(|row| !row.warnings.contains(&"drift")), "{:?}", rows[0].warnings);
+}
+
 /// A dip of 1 % for a fifth of the time is told, or that it would not be seen; full light that sinks by 0.5 to 2 % is,
 /// or is in the errors.
 #[test]
@@ -274,6 +281,30 @@ fn the_true_start_of_opening_is_within_its_stated_error() {
     });
     let missed = held.iter().filter(|held| !**held).count();
     assert!(20 * missed <= held.len(), "{missed} of {}", held.len());
+}
+
+/// Delays of noisy shots differ from the true ones as much as is stated.
+#[test]
+fn a_shots_delay_is_as_well_known_as_stated() {
+    let mut random = Random::new(41);
+    let (step, shots) = (2e-5, 12);
+    let delays: Vec<f64> = (0..shots).map(|_| 1e-3 + random.within(0.0, 2e-4)).collect();
+    let times: Vec<f64> = (0..1500 * shots).map(|i| step * i as f64).collect();
+    // Each edge comes 5 ms after its 30 ms begin.
+    let since = |t: f64| (t / 0.03) as usize;
+    let sync = times.iter().map(|t| f64::from(u8::from(t - 0.03 * since(*t) as f64 > 0.005)));
+    let sync = Trace { values: sync.collect(), times: times.clone() };
+    let light = times.iter().map(|t| {
+        let opened = t - 0.03 * since(*t) as f64 - 0.005 - delays[since(*t).min(shots - 1)];
+        (opened.min(0.014 - opened) / 0.004).clamp(0.0, 1.0) + 0.05 * random.normal()
+    });
+    let trace = Trace { values: light.collect(), times: times.clone() };
+    let options = Options { sync: Some(Sync::Channel(sync)), ..Options::default() };
+    let delay = fit(&trace, &options, &mut |_| ()).expect("a fit").delay.expect("a delay");
+    let mean = delays.iter().sum::<f64>() / shots as f64;
+    let off = |(shot, truth): (&f64, &f64)| (shot - delay.mean() - (truth - mean)).powi(2);
+    let scatter = (delay.shots.iter().zip(&delays).map(off).sum::<f64>() / (shots - 1) as f64).sqrt();
+    assert!((0.5..1.6).contains(&(scatter / delay.measuring)), "{scatter} {}", delay.measuring);
 }
 
 /// A tester's T1 to T3 are within their stated errors as well: of 24 traces of each shutter, 98 % were. A liquid
