@@ -101,10 +101,10 @@ pub fn of_triggers(method: &Method) -> Option<f64> {
 /// difficulties exactly: beyond the rounding of the exact time to an `f32`, as a fraction of the interval.
 pub fn of_hard_curves(count: usize) -> Vec<f64> {
     let errors = (0..count).map(|i| {
-        let seed = &mut Rng::new(1, i as u64);
+        let rng = &mut Rng::new(1, i as u64);
         let curve = CASES.get(i).map_or_else(|| aimed(i % FAMILIES.len(), 1, i as u64), Case::curve);
         let exact = Exact::new(&curve);
-        let us = if i < CASES.len() { hard_us(&exact, SEED, 400) } else { aimed_us(&exact, seed) };
+        let us = if i < CASES.len() { hard_us(&exact, SEED, 400) } else { aimed_us(&exact, rng) };
         let truths: Vec<_> = us.iter().map(|u| exact.inverse_cdf(*u).hi).collect();
         let worst = METHODS.iter().map(|method| {
             let Some(inverse) = (method.build)(&curve) else { return 0.0 };
