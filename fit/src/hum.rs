@@ -101,10 +101,10 @@ pub fn is_one(bins: &[Bin], signal: &Signal) -> bool {
 
 /// The best sine of a frequency beside a level, and by how much it lowers the sum of squares.
 fn sine(missed: &[(f64, f64, f64)], frequency: f64, range: Bounds) -> (f64, Hum) {
-    let waves = |t: f64| (std::f64::consts::TAU * frequency * t).sin_cos();
+    let waves = missed.iter().map(|(t, ..)| (std::f64::consts::TAU * frequency * t).sin_cos());
+    let waves: Vec<(f64, f64)> = waves.collect();
     let [mut n, mut level, mut mc, mut ms] = [0.0; 4];
-    for (t, miss, weight) in missed {
-        let (sine, cosine) = waves(*t);
+    for ((_, miss, weight), (sine, cosine)) in missed.iter().zip(&waves) {
         n += weight;
         level += weight * miss;
         mc += weight * cosine;
@@ -112,8 +112,7 @@ fn sine(missed: &[(f64, f64, f64)], frequency: f64, range: Bounds) -> (f64, Hum)
     }
     let [level, mc, ms] = [level, mc, ms].map(|sum| sum / n);
     let [mut cc, mut cs, mut ss, mut c, mut s] = [0.0; 5];
-    for (t, miss, weight) in missed {
-        let (sine, cosine) = waves(*t);
+    for ((_, miss, weight), (sine, cosine)) in missed.iter().zip(&waves) {
         let (sine, cosine, miss) = (sine - ms, cosine - mc, miss - level);
         cc += weight * cosine * cosine;
         cs += weight * cosine * sine;

@@ -58,8 +58,9 @@ fn panel<'a, 'b>(
     let low = logs.clone().fold(f64::INFINITY, f64::min);
     let high = logs.fold(f64::NEG_INFINITY, f64::max);
     let label = |x: &f64| format!("{:.0}", 2f64.powf(x.round()));
-    let x = Axis { range: low - 1.8..high + 1.4, name: Some(name), label: &label };
-    let y = Axis { range: -9.5..0.5, name: Some("error, as a share of the interval"), label: &|y| power(*y) };
+    let x = Axis { range: low - 1.8..high + 1.4, name: Some(name), labels: 11, label: &label };
+    let y =
+        Axis { range: -9.5..0.5, name: Some("error, as a share of the interval"), labels: 6, label: &|y| power(*y) };
     let mut graph = axes(area, x, y, 62)?;
     for (((method, figures), cost), (dx, dy, h)) in METHODS.iter().zip(&measured.figures).zip(costs).zip(NAMES) {
         let Some(cost) = cost else { continue };

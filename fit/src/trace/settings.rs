@@ -39,7 +39,8 @@ const NAMES: [(Kind, &str); 9] = [
     (
         Kind::Step,
         "sampleinterval samplinginterval sampleperiod samplingperiod sampletime samplingtime samplespacing timestep \
-                  abtastintervall timeinterval timeincrement increment wfincrement tinc xinc xincr xincrement hresolution deltax deltat dt",
+                  abtastintervall timeinterval timeincrement increment wfincrement tinc xinc xincr xincrement \
+                  hresolution deltax deltat dt",
     ),
     (Kind::Clock, "clock interval"),
     (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime wfstartoffset"),

@@ -71,7 +71,8 @@ pub enum Refusal {
         "the pulse has {}, and at least {required} are required to tell its shape; {}",
         counted(.samples, "sample"),
         if *.pulses > 2 {
-            "so many pulses may be those of a lamp that is switched on and off (PWM): use a steady one, or sample faster"
+            "so many pulses may be those of a lamp that is switched on and off (PWM): use a steady one, or sample \
+             faster"
         } else {
             "sample faster, or zoom in"
         }
@@ -87,8 +88,8 @@ pub enum Refusal {
     CutPulse { begins: bool, ends: bool },
     /// Light raises the signal and pulses are cut, or it lowers it.
     #[error(
-        "the trace begins or ends in its higher level, which may be the dark, or a pulse that is cut off; say which way \
-         light moves the signal"
+        "the trace begins or ends in its higher level, which may be the dark, or a pulse that is cut off; say which \
+         way light moves the signal"
     )]
     WhichWay,
     #[error("there is no frame {number}; the trace has {}", counted(.frames, "whole frame"))]
@@ -169,14 +170,14 @@ pub enum Warning {
     Duplicates { count: usize, line: u64 },
     /// Times of a steady clock that were rounded to such a step.
     #[error(
-        "the file rounds its times to {}; they are spread evenly, as a steady clock's, and the ± allow for it; export them with \
-         more digits",
+        "the file rounds its times to {}; they are spread evenly, as a steady clock's, and the ± allow for it; export \
+         them with more digits",
         time(.to)
     )]
     RoundedTimes { to: f64 },
     #[error(
-        "the rows list the changes of a level of two values, as a logic analyser's do: it is taken to stay in between, so no \
-         ramp shows"
+        "the rows list the changes of a level of two values, as a logic analyser's do: it is taken to stay in \
+         between, so no ramp shows"
     )]
     Changes,
     #[error("the file does not say in which unit its times are; they are taken as seconds")]
@@ -193,8 +194,8 @@ pub enum Warning {
     /// An edge of the sync was followed by others, as if a contact bounced, at so many of all shots, for so long at
     /// most.
     #[error(
-        "the sync switches more than once at {few} of {}, the last time some {} after the first: its contact may bounce, as it \
-         closes or as it opens; the first edge counts, so let the firmware take no other for so long",
+        "the sync switches more than once at {few} of {}, the last time some {} after the first: its contact may \
+         bounce, as it closes or as it opens; the first edge counts, so let the firmware take no other for so long",
         counted(.all, "shot"),
         time(.by)
     )]
@@ -205,12 +206,16 @@ pub enum Warning {
         counted(.all, "shot")
     )]
     SyncMissing { few: usize, all: usize },
-    #[error("{} of the sync {} no whole shot of the trace", counted(.edges, "edge"), if *.edges == 1 { "starts" } else { "start" })]
+    #[error(
+        "{} of the sync {} no whole shot of the trace",
+        counted(.edges, "edge"),
+        if *.edges == 1 { "starts" } else { "start" }
+    )]
     SyncOthers { edges: usize },
     /// The edge comes after the opening in so many of all shots, by so much at most.
     #[error(
-        "the edge of the sync comes after the start of opening in {few} of {}, by up to {}: it cannot trigger what comes \
-         before it; use an earlier contact",
+        "the edge of the sync comes after the start of opening in {few} of {}, by up to {}: it cannot trigger what \
+         comes before it; use an earlier contact",
         counted(.all, "shot"),
         time(.by)
     )]
@@ -267,8 +272,8 @@ pub enum Warning {
     )]
     CutTail { left: f64 },
     #[error(
-        "a tail that begins with {} of the light follows the pulse: it is taken for the sensor's lag, and left out; if it is the \
-         light's own, the exposure is {}; a faster sensor tells",
+        "a tail that begins with {} of the light follows the pulse: it is taken for the sensor's lag, and left out; \
+         if it is the light's own, the exposure is {}; a faster sensor tells",
         percent(.share),
         unit::Unit::fit(*with).show(*with)
     )]
@@ -301,13 +306,16 @@ pub enum Warning {
     Hum { hertz: f64, amplitude: f64 },
     /// A sine of so few periods in the record that a drift or the shutter may pass for it; was its frequency given?
     #[error(
-        "hum of {:.2} % of the light, taken out at {}, of which the dark and the pulse hold {periods:.1} periods: a drift \
-         or the shutter's own shape may pass for it; run it all on batteries, or record more dark",
+        "hum of {:.2} % of the light, taken out at {}, of which the dark and the pulse hold {periods:.1} periods: a \
+         drift or the shutter's own shape may pass for it; run it all on batteries, or record more dark",
         100.0 * amplitude,
         format!("{} Hz", short(*hertz, if *.is_known { 4 } else { 2 }))
     )]
     ShortHum { hertz: f64, amplitude: f64, periods: f64, is_known: bool },
-    #[error("the dark level drifts by {:.2} % of the light over the samples that are fitted, and is taken out", 100.0 * amount)]
+    #[error(
+        "the dark level drifts by {:.2} % of the light over the samples that are fitted, and is taken out",
+        100.0 * amount
+    )]
     Drift { amount: f64 },
     #[error(
         "noise of {:.1} % of the light hides the ramps' shape; average several shots, or use more light",

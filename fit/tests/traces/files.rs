@@ -234,7 +234,8 @@ fn pulses_that_are_left_out_are_said() {
     let said: Vec<String> = fit.warnings.iter().map(Warning::to_string).collect();
     let left_out = |number: usize| {
         format!(
-            "pulse {number} of the trace has too little dark beside it, and is left out; those that are whole are counted"
+            "pulse {number} of the trace has too little dark beside it, and is left out; those that are whole are \
+             counted"
         )
     };
     let spark = "1 small pulse left out: with less than a fifth of the light of the largest pulse";
@@ -356,7 +357,8 @@ fn rounded_times_are_spread_and_doubted() {
 
 #[test]
 fn a_list_of_changes_is_read_as_light_and_as_sync() {
-    let list = "Time [s],flash,light\n0,1,0\n0.5,0,0\n0.5031,0,1\n0.5093,0,0\n0.512,1,0\n1.5,0,0\n1.5031,0,1\n1.5093,0,0\n1.513,1,0\n";
+    let list = "Time [s],flash,light\n0,1,0\n0.5,0,0\n0.5031,0,1\n0.5093,0,0\n0.512,1,0\n\
+        1.5,0,0\n1.5031,0,1\n1.5093,0,0\n1.513,1,0\n";
     let options = trace::Options { sync: Some(Column::Name("flash".into())), ..Default::default() };
     let recording = open(list.as_bytes(), &options).unwrap();
     assert_eq!(recording.warnings, [Warning::Changes]);
