@@ -7,10 +7,13 @@ use crate::Result;
 use crate::firmware::{IMAFC, IMC, M0, M4F, M33, folder, made_with};
 use crate::measure::{Measured, On, series};
 
-use Function::{Cdf, Construct, InverseCdf, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm, Static, Table, TickStep};
+use Function::{
+    Cdf, Construct, InverseCdf, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm, SqrtMicromath, Static, Table,
+    TickStep,
+};
 
 /// The calls as the reader knows them, with their numbers of octaves; the last are the baselines.
-const CALLS: [(&str, Function, usize); 12] = [
+const CALLS: [(&str, Function, usize); 13] = [
     ("`inverse_cdf`", InverseCdf, DEFAULT),
     ("`inverse_cdf` of a `static`", Static, DEFAULT),
     ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf, 0),
@@ -22,6 +25,7 @@ const CALLS: [(&str, Function, usize); 12] = [
     ("Newton, nearer end", NearerEnd, DEFAULT),
     ("linear table of 256", Table, DEFAULT),
     ("`libm::sqrtf`", SqrtLibm, DEFAULT),
+    ("`micromath` `sqrt`", SqrtMicromath, DEFAULT),
     ("the FPU's square root", SqrtFpu, DEFAULT),
 ];
 
@@ -99,7 +103,7 @@ fn data_bytes(function: Function, octaves: usize) -> Option<usize> {
     Some(match function {
         NearerEnd => size_of::<baseline::NearerEnd>(),
         Table => size_of::<InverseTable<256>>(),
-        SqrtLibm | SqrtFpu => size_of::<StraightRamps>(),
+        SqrtLibm | SqrtMicromath | SqrtFpu => size_of::<StraightRamps>(),
         _ => CURVE_BYTES[OCTAVES.iter().position(|count| *count == octaves)?],
     })
 }

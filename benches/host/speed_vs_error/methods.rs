@@ -83,13 +83,14 @@ pub struct Method {
 use Kind::{General, Ours, Root};
 
 #[rustfmt::skip]
-pub const METHODS: [Method; 7] = [
+pub const METHODS: [Method; 8] = [
     method("`OCTAVES = 0`", "`inverse_cdf`, `OCTAVES = 0`", Ours, ours::<0>),
     method("`OCTAVES = 4`", "`inverse_cdf`, `OCTAVES = 4`", Ours, ours::<4>),
     method("`OCTAVES = 8`", "`inverse_cdf`", Ours, ours::<8>),
     method("Newton, nearer end", "Newton, nearer end", General, nearer_end),
     method("table of 256", "linear table of 256", General, table),
     method("`libm::sqrtf`", "`libm::sqrtf`", Root, |curve| root(curve, libm::sqrtf)),
+    method("`micromath` `sqrt`", "`micromath` `sqrt`", Root, |curve| root(curve, micromath::F32Ext::sqrt)),
     method("the FPU's square root", "the FPU's square root", Root, |curve| root(curve, f32::sqrt)),
 ];
 

@@ -63,11 +63,11 @@ macro_rules! functions {
         const ALL: &[Function] = &[$(Function::$name),*];
     };
 }
-functions! { InverseCdf Static Cdf Openness TickStep Schedule Construct NearerEnd Table SqrtLibm SqrtFpu }
+functions! { InverseCdf Static Cdf Openness TickStep Schedule Construct NearerEnd Table SqrtLibm SqrtMicromath SqrtFpu }
 
 impl Function {
     pub fn is_for_straight_ramps(self) -> bool {
-        matches!(self, Self::SqrtLibm | Self::SqrtFpu)
+        matches!(self, Self::SqrtLibm | Self::SqrtMicromath | Self::SqrtFpu)
     }
 }
 

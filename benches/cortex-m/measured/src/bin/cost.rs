@@ -138,6 +138,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
             each(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
         }
         Function::SqrtLibm => by_square_roots(us, data, libm::sqrtf),
+        Function::SqrtMicromath => by_square_roots(us, data, micromath::F32Ext::sqrt),
         Function::SqrtFpu => by_square_roots(us, data, fpu_sqrt),
     }
 }
