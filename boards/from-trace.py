@@ -1,7 +1,7 @@
 """The record that from-trace.sh begins with, and what is judged by its truth.
 
-python3 from-trace.py record FOLDER             writes record.csv: five shots, the delay of each off by some 20 µs, and a noisy sync,
-                                                which falls on CH2 and rises on CH3
+python3 from-trace.py record FOLDER             writes record.csv: five shots, the delay of each off by some
+                                                20 µs, and a noisy sync, which falls on CH2 and rises on CH3
 python3 from-trace.py judge WAY SCENE MODULE    judges what was made of it, by the sync that is falling or rising
 """
 
@@ -27,7 +27,8 @@ def light(t):
     """What has come by then, in seconds of a shutter that is fully open."""
     ramp = lambda t, length: min(max(t, 0), length) ** 2 / (2 * length)
     plateau = min(max(t - OPENING, 0), PLATEAU)
-    return ramp(t, OPENING) + plateau + CLOSING / 2 - ramp(OPENING + PLATEAU + CLOSING - max(t, OPENING + PLATEAU), CLOSING)
+    left = OPENING + PLATEAU + CLOSING - max(t, OPENING + PLATEAU)
+    return ramp(t, OPENING) + plateau + CLOSING / 2 - ramp(left, CLOSING)
 
 
 def record(folder):
@@ -46,7 +47,8 @@ def judge(way, scene, module):
     scene, leaf = Path(scene).read_text(), Path(module).read_text()
     spread, put_in = float(re.search(r"^delay_spread = ([\d.]+)", scene, re.M)[1]) * 1e-3, statistics.stdev(delays)
     assert abs(spread - put_in) < 0.1 * put_in, f"a spread of {spread}, and {put_in} was put in"
-    assert f"SYNC_FALLS: bool = {'true' if way == 'falling' else 'false'};" in leaf, f"the module has the other edge, not the {way} one"
+    falls = "true" if way == "falling" else "false"
+    assert f"SYNC_FALLS: bool = {falls};" in leaf, f"the module has the other edge, not the {way} one"
     number = lambda name: int(re.search(rf"{name}: u32 = (\w+);", leaf)[1].replace("_", ""))
     hertz, delay = number("TIMER_HZ"), number("DELAY_TICKS")
     name, ticks = re.search(r"(TICKS|PULSES): \[.*?\] = \[([^\]]*)\];", leaf).groups()
@@ -63,7 +65,8 @@ def judge(way, scene, module):
         off = max(abs(dose / share - 1) for dose in doses)
         assert off < 0.01, f"a pulse's dose is off by {100 * off:.2f} %"
         said = f"{len(doses)} pulses, their doses off by up to {100 * off:.2f} %"
-    print(f"from-trace: {said} at {hertz} Hz; a spread of {1e6 * spread:.0f} µs, and {1e6 * put_in:.1f} µs were put in")
+    spreads = f"a spread of {1e6 * spread:.0f} µs, and {1e6 * put_in:.1f} µs were put in"
+    print(f"from-trace: {said} at {hertz} Hz; {spreads}")
 
 
 {"record": record, "judge": judge}[sys.argv[1]](*sys.argv[2:])

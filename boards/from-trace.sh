@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The whole way, as a user goes it: a record of five shots whose delay jitters, with a noisy sync that falls (and one that rises), then
-# `shutter fit --sync`, `shutter plan --emit rust`, and copies of boards/stm32f4 and boards/pico with that module, linked, and run where
-# their emulators run. Exits with 0 only if the numbers are those that were put in, each edge of the lamp's line comes on its tick after
-# the sync's, and what would fire wrongly is refused.
+# The whole way, as a user goes it: a record of five shots whose delay jitters, with a noisy sync that falls (and one
+# that rises), then `shutter fit --sync`, `shutter plan --emit rust`, and copies of boards/stm32f4 and boards/pico with
+# that module, linked, and run where their emulators run. Exits with 0 only if the numbers are those that were put in,
+# each edge of the lamp's line comes on its tick after the sync's, and what would fire wrongly is refused.
 #
 #   .ci/thumb.sh boards/from-trace.sh      node and Python are needed
 set -euo pipefail
@@ -54,6 +54,7 @@ for board in "stm32f4 100MHz" "pico 125MHz"; do
     # Firmware that takes the rising edge of every sync.
     plan falling "$board" "$hertz" "${pulses[@]}"
     sed -i 's/bit(leaf::SYNC_FALLS)/bit(false)/; s/if leaf::SYNC_FALLS {$/if false {/' "$scratch/$board/src/main.rs"
-    refused "$([ "$board" = pico ] && echo "frame 0: the line changes at" || echo "captures the other edges")" "$scratch/$board/run.sh"
+    said=$([ "$board" = pico ] && echo "frame 0: the line changes at" || echo "captures the other edges")
+    refused "$said" "$scratch/$board/run.sh"
 done
 echo "from-trace: triggers and pulses on their ticks, by a falling and a rising sync, from both boards"

@@ -1,7 +1,8 @@
-"""python3 model.py FIRMWARE: runs the firmware on an emulated processor (unicorn), with a model of the registers that it uses.
+"""python3 model.py FIRMWARE: runs the firmware on an emulated processor (unicorn), with a model of its registers.
 
-No emulator that we know of has this chip's capture, compare and DMA. The model is ours, by the chip's reference manual (RM0383), and
-refuses what it does not know. It judges each edge of the lamp's line, to the tick, by leaf.rs. Exits with 1 if one is wrong.
+No emulator that we know of has this chip's capture, compare and DMA. The model is ours, by the chip's reference manual
+(RM0383), and refuses what it does not know. It judges each edge of the lamp's line, to the tick, by leaf.rs. Exits with
+1 if one is wrong.
 """
 
 import re
@@ -73,7 +74,8 @@ class Chip:
 
     def capture(self):
         count = self.syncs.pop(0) % WRAP
-        assert self.get(CCMR1) & 3 == 1 and self.get(CCER) & 0xB == (3 if FALLS else 1), "channel 1 captures the other edges"
+        is_edge = self.get(CCMR1) & 3 == 1 and self.get(CCER) & 0xB == (3 if FALLS else 1)
+        assert is_edge, "channel 1 captures the other edges"
         self.reg[SR] = self.get(SR) | CC1 | (CC1OF if self.get(SR) & CC1 else 0)
         self.reg[CCR1] = count
 
@@ -113,7 +115,8 @@ class Chip:
             if base <= address < base + 0x400:
                 assert self.get(RCC + enable) >> bit & 1, f"{address:#x} has no clock"
                 return
-        assert RCC <= address < FLASH + 0x400 or 0x4000_7000 <= address < 0x4000_7400, f"the model knows no {address:#x}"
+        is_known = RCC <= address < FLASH + 0x400 or 0x4000_7000 <= address < 0x4000_7400
+        assert is_known, f"the model knows no {address:#x}"
 
     def read(self, uc, offset, size, _):
         address = 0x4000_0000 + offset
@@ -175,20 +178,24 @@ leaf = (source / "leaf.rs").read_text()
 number = lambda name, text: int(re.search(rf"{name}: u32 = (\w+);", text)[1].replace("_", ""))
 array = lambda name: re.search(rf"{name}: \[.*?\] = \[([^\]]*)\];", leaf)
 numbers = lambda found: [int(number) for number in re.findall(r"\d+", found[1])]
-TIMER_HZ, delay, pulse = number("TIMER_HZ", leaf), number("DELAY_TICKS", leaf), number("PULSE", (source / "main.rs").read_text())
+TIMER_HZ, delay = number("TIMER_HZ", leaf), number("DELAY_TICKS", leaf)
+pulse = number("PULSE", (source / "main.rs").read_text())
 FALLS = "SYNC_FALLS: bool = true;" in leaf
 pulses = array("PULSES")
 changes = numbers(pulses) if pulses else [tick + end for tick in numbers(array("TICKS")) for end in (0, pulse)]
 chip = Chip(sys.argv[1])
 second = TIMER_HZ
-# Frames: one; one whose edge comes before the counter wraps and its flashes after; one after an edge that bounced, and during which
-# another comes.
+# Frames: one; one whose edge comes before the counter wraps and its flashes after; one after an edge that bounced, and
+# during which another comes.
 frames = [second, WRAP - delay // 2, WRAP + 3 * second]
 chip.syncs = [*frames[:2], WRAP + 2 * second, WRAP + 2 * second + 3, frames[2], frames[2] + delay + changes[3]]
 chip.run()
 expected = [frame + delay + change for frame in frames for change in changes]
 if chip.edges != expected:
-    wrong = next((i for i, (a, b) in enumerate(zip(chip.edges, expected)) if a != b), min(len(chip.edges), len(expected)))
-    sys.exit(f"{len(chip.edges)} edges of {len(expected)}; number {wrong} at {chip.edges[wrong:wrong + 1]}, not {expected[wrong:wrong + 1]}")
+    n, m = len(chip.edges), len(expected)
+    wrong = next((i for i, (a, b) in enumerate(zip(chip.edges, expected)) if a != b), min(n, m))
+    found, right = chip.edges[wrong:wrong + 1], expected[wrong:wrong + 1]
+    sys.exit(f"{n} edges of {m}; number {wrong} at {found}, not {right}")
 way = "falling" if FALLS else "rising"
-print(f"boards/stm32f4: {len(frames)} frames of {len(changes) // 2} flashes, each edge on its tick after a {way} sync, one across the counter's wrap")
+fired = f"{len(frames)} frames of {len(changes) // 2} flashes"
+print(f"boards/stm32f4: {fired}, each edge on its tick after a {way} sync, one across the counter's wrap")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the firmware as it is flashed, and runs it on a model of the chip: exits with 0 only if each edge of the lamp's line comes on
-# its tick. The first time it fetches the emulated processor, Python's unicorn, 16 MB.
+# Builds the firmware as it is flashed, and runs it on a model of the chip: exits with 0 only if each edge of the lamp's
+# line comes on its tick. The first time it fetches the emulated processor, Python's unicorn, 16 MB.
 #
 #   .ci/thumb.sh boards/stm32f4/run.sh     or without .ci/thumb.sh, after: rustup target add thumbv7em-none-eabihf
 set -euo pipefail
@@ -14,6 +14,6 @@ cargo build --quiet --locked --release
 python=$folder/unicorn/bin/python
 if ! "$python" -c 'import unicorn' 2>/dev/null; then
     python3 -m venv "$folder/unicorn" && "$python" -m pip install --quiet --disable-pip-version-check unicorn==2.1.4 ||
-        { echo "stm32f4: cannot fetch unicorn: python3 with venv (your system's package python3-venv) and pip are needed" >&2 && exit 1; }
+        { echo "stm32f4: no unicorn: python3 with venv (package python3-venv) and pip are needed" >&2 && exit 1; }
 fi
 "$python" model.py "$folder/thumbv7em-none-eabihf/release/leaf-stm32f4"

@@ -3,7 +3,9 @@
 use shutter_fit::unit::Unit;
 
 use crate::delay::{Delay, Lag};
+use crate::fault::Fault;
 use crate::lamp::SetUp;
+use crate::scene::{Scene, not_negative, positive};
 use crate::timer::Timer;
 
 /// What a plan by a curve and one by trigger times both have.
@@ -31,6 +33,22 @@ pub struct Common {
 }
 
 impl Common {
+    /// That of a scene whose shutter is open for so many seconds, or ticks.
+    pub(crate) fn new(scene: &Scene, timer: Timer, length: f64, ticks: f64) -> Result<Self, Fault> {
+        let min_gap = not_negative(scene.unit(), "min_gap", &scene.min_gap)?;
+        let nominal = positive(scene.unit(), "nominal", scene.nominal.as_ref())?;
+        let (delay, lag) = Delay::new(scene, timer.hz, ticks)?;
+        timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + ticks, scene.timer_bits.as_ref())?;
+        let set_up = scene.set_up.as_ref().map(|it| *it.get_ref());
+        let unit = scene.unit.unwrap_or_else(|| Unit::fit(length));
+        Ok(Self { timer, delay, lag, set_up, min_gap, nominal, fitted: Vec::new(), unit, length })
+    }
+
+    /// Can the first trigger, or pulse, after so many ticks come as much earlier as the lamp is late?
+    pub(crate) fn starts(&self, first: u32, scene: &Scene) -> Result<(), Fault> {
+        self.lag.map_or(Ok(()), |lag| lag.checked(first, scene, self.timer.hz))
+    }
+
     /// What is doubtful about the fit that the scene comes from.
     pub fn doubts(&self) -> impl Iterator<Item = &str> {
         self.fitted.iter().filter(|(what, _)| *what == "doubt").map(|(_, told)| told.as_str())

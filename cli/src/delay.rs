@@ -1,10 +1,7 @@
 //! From the edge of a camera's sync to the start of opening, and from a trigger to the lamp's light.
 
-use shutter_fit::unit::Unit;
-use toml::Spanned;
-
 use crate::fault::{Fault, What};
-use crate::scene::{Optional, not_negative, seconds};
+use crate::scene::{Scene, not_negative, seconds};
 
 /// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from
 /// the second of the two, and only the edge can be seen.
@@ -29,30 +26,19 @@ pub struct Lag {
     pub ticks: u32,
 }
 
-/// What a scene has of a sync and a lamp.
-pub(crate) struct Sync<'a> {
-    pub delay: Optional<'a>,
-    pub spread: Optional<'a>,
-    pub falls: Option<&'a Spanned<bool>>,
-    pub lag: Optional<'a>,
-    pub unit: Unit,
-    pub timer_hz: u32,
-}
-
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
 pub(crate) const LAST: f64 = (1u32 << 31) as f64;
 
 impl Delay {
-    /// The delay and the lamp's lag that a scene has in this unit, where the frame ends so many ticks after the shutter
+    /// The delay and the lamp's lag that a scene has, where the frame ends so many ticks after the shutter
     /// opens.
     ///
     /// # Errors
     /// A delay or a lag below 0, and a delay after which the frame ends too late; a spread below 0, or what goes with a
     /// delay without one.
-    pub(crate) fn new(
-        &Sync { delay, spread, falls, lag, unit, timer_hz }: &Sync,
-        end: f64,
-    ) -> Result<(Option<Self>, Option<Lag>), Fault> {
+    pub(crate) fn new(scene: &Scene, timer_hz: u32, end: f64) -> Result<(Option<Self>, Option<Lag>), Fault> {
+        let (unit, delay, spread) = (scene.unit(), scene.delay.as_ref(), scene.delay_spread.as_ref());
+        let (falls, lag) = (scene.sync_falls.as_ref(), scene.lamp_lag.as_ref());
         let deviation = spread.map(|place| seconds(unit, "delay_spread", place)).transpose()?;
         if let Some(place) = spread.filter(|_| delay.is_none() || deviation < Some(0.0)) {
             return Err(Fault::at(place, What::Spread));
@@ -86,11 +72,11 @@ impl Lag {
     ///
     /// # Errors
     /// By how much it would come before the edge; without a delay, before the start of opening.
-    pub(crate) fn checked(lag: Option<Self>, first: u32, sync: &Sync) -> Result<(), Fault> {
-        let (Some(lag), Some(place)) = (lag, sync.lag) else { return Ok(()) };
-        let Some(by) = lag.ticks.checked_sub(first).filter(|by| *by > 0) else { return Ok(()) };
-        let by = f64::from(by) / f64::from(sync.timer_hz);
-        let (most, by_edge) = (lag.seconds - by, sync.delay.is_some());
-        Err(Fault::at(place, What::Lag { by, most, by_edge, unit: sync.unit }))
+    pub(crate) fn checked(self, first: u32, scene: &Scene, timer_hz: u32) -> Result<(), Fault> {
+        let Some(place) = &scene.lamp_lag else { return Ok(()) };
+        let Some(by) = self.ticks.checked_sub(first).filter(|by| *by > 0) else { return Ok(()) };
+        let by = f64::from(by) / f64::from(timer_hz);
+        let (most, by_edge) = (self.seconds - by, scene.delay.is_some());
+        Err(Fault::at(place, What::Lag { by, most, by_edge, unit: scene.unit() }))
     }
 }

@@ -146,7 +146,8 @@ fn asked(fit: &Fit, unit: Unit, has_curve: bool) -> String {
         false => "; in the light's path it needs a curve (--model free)",
     };
     format!(
-        "# set_up = \"emulated\" # the camera's own shutter stays open, and equal flashes expose as this shutter does{in_path}\n\
+        "# set_up = \"emulated\" # the camera's own shutter stays open, and equal flashes expose as this shutter \
+         does{in_path}\n\
          # timer_hz = ... # your timer's rate, in Hz\n\
          min_gap = 0 # {}, what your lamp needs between two flashes\n{}",
         unit.name(),

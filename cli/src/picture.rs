@@ -16,10 +16,10 @@ use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::Planned;
 use drawing::{
-    Drawn, MOST_MARKS, POINTS, SCALE, below, dot, draw_curve, graph, is_near, lit, pen, picture, sync, time_range,
+    Drawn, Key, MOST_MARKS, POINTS, SCALE, below, draw_curve, graph, is_near, knob, lit, pen, picture, sync, time_range,
 };
 pub use set_ups::set_ups;
-use style::{Area, BLUE, GREY, Graph, INK, SHARES, VERMILION};
+use style::{Area, GREY, Graph, INK, SHARES, VERMILION};
 pub use trace::trace;
 
 const SIZE: (i32, i32) = (900, 704);
@@ -74,35 +74,7 @@ fn legend(area: &Area, plan: &Plan) -> Drawn {
     if plan.shape.inner.is_some() {
         keys.push(("control point and its handle", Key::Handle));
     }
-    // By so much a letter is wide, at most.
-    let width = |name: &str| 34 + 8 * name.len() as i32;
-    let all: i32 = keys.iter().map(|(name, _)| width(name)).sum();
-    let (mut x, y) = ((SIZE.0 - all) / 2 * SCALE, 74 * SCALE);
-    for (name, key) in keys {
-        let (from, middle, to) = (x, x + 11 * SCALE, x + 22 * SCALE);
-        match key {
-            Key::Line => area.draw(&PathElement::new([(from, y), (to, y)], pen(BLUE, 2.5)))?,
-            Key::Dot => area.draw(&dot((middle, y)))?,
-            Key::Lamp => {
-                area.draw(&Rectangle::new([(from + 4 * SCALE, y - 6 * SCALE), (to - 4 * SCALE, y + 6 * SCALE)], lit()))?
-            }
-            Key::Handle => {
-                area.draw(&PathElement::new([(from, y), (to, y)], pen(GREY, 2.0)))?;
-                area.draw(&knob((to - 4 * SCALE, y)))?;
-            }
-        }
-        let label = style::text(13 * SCALE, HPos::Left, VPos::Center);
-        area.draw_text(name, &label, (to + 7 * SCALE, y))?;
-        x += width(name) * SCALE;
-    }
-    Ok(())
-}
-
-enum Key {
-    Line,
-    Dot,
-    Lamp,
-    Handle,
+    drawing::legend(area, SIZE.0, &keys)
 }
 
 fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
@@ -198,9 +170,4 @@ fn draw_triggers(
         return Ok(());
     }
     drawing::draw_marks(graph, marks, line)
-}
-
-/// A control point.
-fn knob<C>(at: C) -> Circle<C, i32> {
-    Circle::new(at, 5 * SCALE, pen(INK, 1.5))
 }

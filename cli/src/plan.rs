@@ -7,10 +7,9 @@ pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count};
 
 use crate::common::Common;
-use crate::delay::{Delay, Lag, Sync};
 use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
-use crate::scene::{Scene, not_negative, positive, whole};
+use crate::scene::{Scene, positive, whole};
 use crate::shape::Shape;
 use crate::timer::Timer;
 
@@ -72,25 +71,16 @@ impl Plan {
         Lamp::Triggered
             .frame(&curve, 0, timer_hz)
             .map_err(|error| Fault::of(scene.timer_hz.as_ref().map(|it| it.span().start), rate(error)))?;
-        let asked = Asked::new(scene, &curve, timer_hz)?;
         let end = (length * f64::from(timer_hz)).round();
-        let sync = Sync {
-            delay: scene.delay.as_ref(),
-            spread: scene.delay_spread.as_ref(),
-            falls: scene.sync_falls.as_ref(),
-            lag: scene.lamp_lag.as_ref(),
-            unit: scene.unit(),
-            timer_hz,
-        };
-        let (delay, lag) = Delay::new(&sync, end)?;
-        timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, scene.timer_bits.as_ref())?;
+        let mut common = Common::new(scene, timer, length, end)?;
+        let asked = Asked::new(scene, &curve, timer_hz, common.min_gap)?;
         let frames = Frames { curve: &curve, timer, unit: scene.unit(), end: end as i64 };
         let frame = match frames.checked(&asked, n) {
             Ok(frame) => frame,
             Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
         };
         let first = frame.first().map_or(0, |first| first.on as u32);
-        Lag::checked(lag, first, &sync)?;
+        common.starts(first, scene)?;
         let trigger = |(i, flash): (u32, &Flash)| {
             let u = (i as f32 + 0.5) / n as f32;
             let (u, time) = match asked.lamp {
@@ -113,17 +103,7 @@ impl Plan {
         });
         let triggers = (0..).zip(&frame).map(trigger).collect();
         let most = frames.most(&asked, n, MOST_TRIGGERS + 1);
-        let common = Common {
-            timer,
-            delay,
-            lag,
-            set_up: scene.set_up.as_ref().map(|it| *it.get_ref()),
-            min_gap: asked.min_gap,
-            nominal: asked.nominal,
-            fitted: moved.map(|told| ("doubt", told)).into_iter().collect(),
-            unit: scene.unit.unwrap_or_else(|| Unit::fit(length)),
-            length,
-        };
+        common.fitted = moved.map(|told| ("doubt", told)).into_iter().collect();
         Ok(Self { shape, curve, lamp: asked.lamp, most, triggers, common })
     }
 
@@ -136,8 +116,6 @@ impl Plan {
 /// What a scene asks of each frame, in ticks.
 struct Asked {
     lamp: Lamp,
-    min_gap: f64,
-    nominal: Option<f64>,
     /// Between the end of one flash and the start of the next.
     dark: u64,
     /// What a pulse has to last.
@@ -145,10 +123,8 @@ struct Asked {
 }
 
 impl Asked {
-    fn new(scene: &Scene, curve: &ShutterCurve, timer_hz: u32) -> Result<Self, Fault> {
+    fn new(scene: &Scene, curve: &ShutterCurve, timer_hz: u32, min_gap: f64) -> Result<Self, Fault> {
         let unit = scene.unit();
-        let min_gap = not_negative(unit, "min_gap", &scene.min_gap)?;
-        let nominal = positive(unit, "nominal", scene.nominal.as_ref())?;
         let pulse = positive(unit, "pulse", scene.pulse.as_ref())?;
         let min_pulse = positive(unit, "min_pulse", scene.min_pulse.as_ref())?;
         let fully_open = scene.fully_open.as_ref().filter(|it| *it.get_ref());
@@ -197,7 +173,7 @@ impl Asked {
             Lamp::Equal { .. } => 1,
             Lamp::Doses { .. } => whole_ticks(min_pulse.unwrap_or_default(), timer_hz).max(1),
         };
-        Ok(Self { lamp, min_gap, nominal, dark, lit })
+        Ok(Self { lamp, dark, lit })
     }
 }
 

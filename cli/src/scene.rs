@@ -1,11 +1,10 @@
 //! A scene: what stands in its text, and where it is wrong.
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use shutter_curve::{CurveError, Part, ShutterCurve};
 use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
-use toml::de::DeTable;
+use toml::de::{DeTable, Deserializer};
 
 use crate::fault::{DIGITS, Fault, What};
 use crate::lamp::SetUp;
@@ -17,7 +16,7 @@ use crate::shape::Shape;
 pub struct Scene {
     /// Of all times; seconds without.
     pub(crate) unit: Option<Unit>,
-    open_start: Spanned<Number>,
+    pub(crate) open_start: Spanned<Number>,
     open_end: Spanned<Number>,
     close_start: Spanned<Number>,
     close_end: Spanned<Number>,
@@ -36,7 +35,12 @@ pub struct Scene {
     pub(crate) lamp_lag: Option<Spanned<Number>>,
     pub(crate) set_up: Option<Spanned<SetUp>>,
     pub(crate) fully_open: Option<Spanned<bool>>,
+    /// In place of a curve, whose keys are of no account then.
+    #[serde(skip_serializing)]
+    pub(crate) trigger_times: Option<TriggerTimes>,
 }
+
+pub(crate) type TriggerTimes = Spanned<Vec<Spanned<Number>>>;
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
 #[serde(untagged, expecting = "a number is required")]
@@ -118,6 +122,7 @@ impl Scene {
             set_up: choice("set_up").map(|it| Spanned::new(it.span(), set_up(*it.get_ref()))),
             sync_falls: choice("sync_falls"),
             fully_open: choice("fully_open"),
+            trigger_times: None,
         }
     }
 }
@@ -157,17 +162,15 @@ pub fn parse(text: &str) -> Result<Scene, Fault> {
 }
 
 /// What a text has by its keys.
-pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
-    toml::from_str(text).map_err(|error| {
+pub(crate) fn read(text: &str) -> Result<Scene, Fault> {
+    let told = |error: toml::de::Error| {
         let mut reason = error.message().to_string();
         // What is missing is on no line; its span is the whole table.
         let missing = reason.starts_with("missing field");
         let at = error.span().filter(|_| !missing).map(|span| span.start);
         let table = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
         let is_there = |value: &Spanned<_>| at.is_some_and(|at| value.span().contains(&at));
-        if reason.starts_with("unknown field") && !reason.contains(TRIGGER_TIMES) {
-            reason += &format!(", or `{TRIGGER_TIMES}` in place of a curve");
-        } else if let Some((key, _)) = table.iter().find(|(_, value)| is_there(value)) {
+        if let Some((key, _)) = table.iter().find(|(_, value)| is_there(value)) {
             let key = key.get_ref();
             reason = match key.as_ref() {
                 "unit" => "unit: \"s\", \"ms\", \"us\" or \"ns\" is required".into(),
@@ -180,7 +183,15 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
             };
         }
         Fault::of(at, What::Text(reason))
-    })
+    };
+    let mut table = DeTable::parse(text).map_err(told)?;
+    let keys = table.get_mut();
+    if let (true, Some(start)) = (keys.contains_key(TRIGGER_TIMES), keys.get("open_start").cloned()) {
+        for key in ["open_end", "close_start", "close_end", "triggers"] {
+            keys.insert(Spanned::new(0..0, key.into()), start.clone());
+        }
+    }
+    Scene::deserialize(Deserializer::from(table)).map_err(told)
 }
 
 /// So much of the interval a time may be off by its rounding to `f32`: less than what a good measurement is.

@@ -2,37 +2,17 @@
 
 use std::ops::Deref;
 
-use serde::Deserialize;
 use shutter_fit::unit::Unit;
 use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::common::Common;
-use crate::delay::{Delay, LAST, Lag, Sync};
+use crate::delay::LAST;
 use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::SetUp;
 use crate::plan::{MOST_TRIGGERS, whole_ticks};
-use crate::scene::{self, Number, TRIGGER_TIMES as KEY};
+use crate::scene::{self, Number, Scene, TRIGGER_TIMES as KEY, TriggerTimes};
 use crate::timer::Timer;
-
-/// The scene as it is written; each value knows its place in the text.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Scene {
-    /// Of all times; seconds without.
-    unit: Option<Unit>,
-    open_start: Spanned<Number>,
-    trigger_times: Spanned<Vec<Spanned<Number>>>,
-    timer_hz: Option<Spanned<Number>>,
-    timer_bits: Option<Spanned<Number>>,
-    min_gap: Spanned<Number>,
-    nominal: Option<Spanned<Number>>,
-    delay: Option<Spanned<Number>>,
-    delay_spread: Option<Spanned<Number>>,
-    sync_falls: Option<Spanned<bool>>,
-    lamp_lag: Option<Spanned<Number>>,
-    set_up: Option<Spanned<SetUp>>,
-}
 
 /// A trigger that was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,64 +63,37 @@ impl Times {
                 return Err(Fault::at(key, What::Text(format!("{}: {why}", key.get_ref()))));
             }
         }
-        let mut times = Self::new(&scene::read(text)?)?;
+        let mut scene = scene::read(text)?;
+        let times = scene.trigger_times.take().unwrap_or_else(|| Spanned::new(0..0, Vec::new()));
+        let mut times = Self::new(&scene, &times)?;
         times.common.fitted = scene::fitted(text);
         Ok(times)
     }
 
     /// The triggers at these times of a scene of numbers, counted from the start of opening at 0.
-    pub fn of_numbers(scene: scene::Scene, times: &[f64]) -> Result<Self, Fault> {
+    pub fn of_numbers(mut scene: Scene, times: &[f64]) -> Result<Self, Fault> {
         let place = scene.triggers.span();
         let at = |time| Spanned::new(place.clone(), Number::Any(time));
-        Self::new(&Scene {
-            unit: scene.unit,
-            open_start: at(0.0),
-            trigger_times: Spanned::new(place.clone(), times.iter().copied().map(at).collect()),
-            timer_hz: scene.timer_hz,
-            timer_bits: scene.timer_bits,
-            min_gap: scene.min_gap,
-            nominal: scene.nominal,
-            delay: scene.delay,
-            delay_spread: scene.delay_spread,
-            sync_falls: scene.sync_falls,
-            lamp_lag: scene.lamp_lag,
-            set_up: scene.set_up,
-        })
+        scene.open_start = Spanned::new(place.clone(), Number::Any(0.0));
+        Self::new(&scene, &Spanned::new(place.clone(), times.iter().copied().map(at).collect()))
     }
 
-    fn new(scene: &Scene) -> Result<Self, Fault> {
-        let unit = scene.unit.unwrap_or(Unit::Second);
+    fn new(scene: &Scene, times: &TriggerTimes) -> Result<Self, Fault> {
+        let unit = scene.unit();
         let open_start = scene::seconds(unit, "open_start", &scene.open_start)?;
-        let bits = scene.timer_bits.as_ref();
         if let Some(place) = scene.set_up.as_ref().filter(|it| *it.get_ref() == SetUp::InPath) {
             return Err(Fault::at(place, What::TimesInPath));
         }
-        let last = scene.trigger_times.get_ref().last().map_or(0.0, |it| it.get_ref().get());
+        let last = times.get_ref().last().map_or(0.0, |it| it.get_ref().get());
         let delay = scene.delay.as_ref().map_or(0.0, |delay| delay.get_ref().get());
         let until_end = unit.seconds(last + delay) - open_start;
-        let timer = Timer::new(scene.timer_hz.as_ref(), bits, until_end)?;
+        let timer = Timer::new(scene.timer_hz.as_ref(), scene.timer_bits.as_ref(), until_end)?;
         let min_gap = scene::not_negative(unit, "min_gap", &scene.min_gap)?;
-        let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
-        let triggers = triggers(scene, unit, open_start, timer, whole_ticks(min_gap, timer.hz).max(1))?;
-        let end = triggers.last().map_or(0.0, |last| last.ticks.into());
-        let sync = Sync {
-            delay: scene.delay.as_ref(),
-            spread: scene.delay_spread.as_ref(),
-            falls: scene.sync_falls.as_ref(),
-            lag: scene.lamp_lag.as_ref(),
-            unit,
-            timer_hz: timer.hz,
-        };
-        let (delay, lag) = Delay::new(&sync, end)?;
-        let first = triggers.first().map_or(0, |first| first.ticks);
-        Lag::checked(lag, first, &sync)?;
-        timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
-        let set_up = scene.set_up.as_ref().map(|it| *it.get_ref());
+        let triggers = triggers(times, unit, open_start, timer, whole_ticks(min_gap, timer.hz).max(1))?;
         let last = triggers.last().map_or(0.0, |last| last.time - open_start);
-        let length = last.max(1.0 / f64::from(timer.hz));
-        let unit = scene.unit.unwrap_or_else(|| Unit::fit(length));
-        let fitted = Vec::new();
-        let common = Common { timer, delay, lag, set_up, min_gap, nominal, fitted, unit, length };
+        let end = triggers.last().map_or(0.0, |last| last.ticks.into());
+        let common = Common::new(scene, timer, last.max(1.0 / f64::from(timer.hz)), end)?;
+        common.starts(triggers.first().map_or(0, |first| first.ticks), scene)?;
         Ok(Self { open_start, triggers, common })
     }
 
@@ -151,11 +104,11 @@ impl Times {
 }
 
 /// The times in ticks, known to be in order and at least so many apart.
-fn triggers(scene: &Scene, unit: Unit, start: f64, timer: Timer, gap: u64) -> Result<Vec<Given>, Fault> {
+fn triggers(all: &TriggerTimes, unit: Unit, start: f64, timer: Timer, gap: u64) -> Result<Vec<Given>, Fault> {
     let (hz, gap) = (f64::from(timer.hz), i64::try_from(gap).unwrap_or(i64::MAX));
-    let times = scene.trigger_times.get_ref();
+    let times = all.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
-        return Err(Fault::at(&scene.trigger_times, What::TimesCount(times.len())));
+        return Err(Fault::at(all, What::TimesCount(times.len())));
     }
     let mut triggers: Vec<Given> = Vec::new();
     for (i, place) in times.iter().enumerate() {

@@ -1,7 +1,7 @@
 // An emulated Pico: rp2040js, with its peripherals stepped in time with the processor, 8 ns a cycle.
 //
-// What of it differs from the chip: the DMA takes no time, neither does the entry into an interrupt; an input is seen at
-// once, without the two flip-flops that synchronise it; there is one core.
+// What of it differs from the chip: the DMA takes no time, neither does the entry into an interrupt; an input is seen
+// at once, without the two flip-flops that synchronise it; there is one core.
 
 import { readFileSync } from "node:fs";
 import { ConsoleLogger, GPIOPinState, LogLevel, RP2040 } from "rp2040js";

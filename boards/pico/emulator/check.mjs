@@ -1,5 +1,5 @@
-// node check.mjs FIRMWARE SOURCES: runs the firmware in the emulator, and judges each edge of the lamp's line in some frames by leaf.rs.
-// Exits with 1 if one is not on its cycle after the sync's edge.
+// node check.mjs FIRMWARE SOURCES: runs the firmware in the emulator, and judges each edge of the lamp's line in some
+// frames by leaf.rs. Exits with 1 if one is not on its cycle after the sync's edge.
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -26,7 +26,9 @@ for (let frame = 0; frame < FRAMES; frame++) {
   // Back to its level at rest, which starts nothing.
   board.drive(SYNC, falls);
   const { pullupEnabled, pulldownEnabled } = board.mcu.gpio[SYNC];
-  if (pullupEnabled !== falls || pulldownEnabled === falls) throw new Error("the sync's pin is pulled to the wrong level");
+  if (pullupEnabled !== falls || pulldownEnabled === falls) {
+    throw new Error("the sync's pin is pulled to the wrong level");
+  }
   board.run(1000 + 777 * frame);
   const edge = board.cycle;
   board.drive(SYNC, !falls);
@@ -35,8 +37,9 @@ for (let frame = 0; frame < FRAMES; frame++) {
   if (frame === 1) for (const level of [falls, !falls]) board.drive(SYNC, level), board.run(100);
   board.run(edge + changes.at(-1) + 10_000 - board.cycle);
   const found = edges.splice(0).map((cycle) => cycle - edge);
-  if (found.join() !== changes.join()) throw new Error(`frame ${frame}: the line changes at ${found}, not at ${changes}`);
+  if (found.join() !== changes.join()) {
+    throw new Error(`frame ${frame}: the line changes at ${found}, not at ${changes}`);
+  }
 }
-console.log(
-  `boards/pico: ${FRAMES} frames of ${changes.length / 2} flashes, each edge on its cycle after a ${falls ? "falling" : "rising"} sync`,
-);
+const [n, way] = [changes.length / 2, falls ? "falling" : "rising"];
+console.log(`boards/pico: ${FRAMES} frames of ${n} flashes, each edge on its cycle after a ${way} sync`);

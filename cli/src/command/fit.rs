@@ -252,8 +252,8 @@ fn sensors(
         let first = all.first().map_or(here, |first| first.fit.frames.count);
         if first != here && args.frame.is_none() {
             return Err(format!(
-                "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing tells which belong \
-                 together; see --from, --to and --frame"
+                "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing tells \
+                 which belong together; see --from, --to and --frame"
             ));
         }
         let reading = fit.reading.as_ref();
@@ -301,8 +301,8 @@ fn is_one_setting(args: &Args, read: &[Read], records: &[Record], scenes: usize)
     }
     if scenes > 1 {
         return Err(format!(
-            "--out: the exposures differ by {differ} % only, so the traces are shots of one setting and make one scene: \
-             name it SCENE.toml, or give each trace its speed with --nominal"
+            "--out: the exposures differ by {differ} % only, so the traces are shots of one setting and make one \
+             scene: name it SCENE.toml, or give each trace its speed with --nominal"
         ));
     }
     for (i, other) in read.iter().enumerate().skip(1) {

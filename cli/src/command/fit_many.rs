@@ -17,7 +17,8 @@ pub struct Speed {
 pub fn table(speeds: &[Speed]) -> String {
     let header = ["trace", "nominal", "measured", "ΔEV", "spread", "pulses", "model"];
     columns(header, speeds.iter().map(row))
-        + "measured: TV, fully open for as much light, ± one standard error; spread: how much the pulses of a trace differ\n"
+        + "measured: TV, fully open for as much light, ± one standard error; spread: how much the \
+           pulses of a trace differ\n"
         + &delays(speeds)
 }
 
@@ -41,8 +42,8 @@ fn delays(speeds: &[Speed]) -> String {
     }
     let header = ["trace", "delay", "to any trigger", "shots", "spread", "worst"];
     let rows = columns(header, speeds.iter().filter_map(row));
-    let told = "delay: from the sync's edge to the opening; spread: its standard deviation between shots, and worst: how far one \
-                is off their mean; shots of one speed, to 10 %, and of one edge count together\n";
+    let told = "delay: from the sync's edge to the opening; spread: its standard deviation between shots, and worst: \
+                how far one is off their mean; shots of one speed, to 10 %, and of one edge count together\n";
     format!("\n{rows}{told}")
 }
 

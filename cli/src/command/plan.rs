@@ -11,6 +11,7 @@ use super::mark::{self, Comment};
 use super::output::{Outputs, svg_path};
 use super::settings::Settings;
 use crate::emit::Form;
+use crate::plan::Plan;
 use crate::planned::Planned;
 use crate::{emit, facts, picture, report, speeds};
 
@@ -67,23 +68,26 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
         paths => paths.iter().map(|path| read(args, path, &mut told)).collect::<Result<Vec<_>, String>>()?,
     };
-    if form.is_some() {
-        let dimmed = plans.iter().filter_map(|(name, plan)| Some((name, facts::dimmed(plan.plan()?)?)));
-        told.extend(dimmed.map(|(name, doses)| {
-            format!(
-                "warning: {name}: the shutter is in the light's path, and dims the flashes to {doses}; \
-                 --duty 0.5 (pulses) or --fully-open (xenon) makes doses equal\n"
-            )
-        }));
-        let unequal = plans.iter().filter_map(|(name, plan)| Some((name, facts::unequal(plan.plan()?)?)));
-        told.extend(unequal.map(|(name, percent)| {
-            format!("warning: {name}: a tick is so long that the doses differ by up to {percent} %; a faster timer makes them equal\n")
-        }));
-        let coarse = plans.iter().filter_map(|(name, plan)| Some((name, facts::coarse(plan)?)));
-        told.extend(coarse.map(|(name, by)| {
-            let by = short(by, 2);
-            format!("warning: {name}: a tick is so long that flashes move by up to {by} % of a share; a faster timer moves them less\n")
-        }));
+    for (name, plan) in plans.iter().filter(|_| form.is_some()) {
+        let of_curve = |fact: fn(&Plan) -> Option<String>| plan.plan().and_then(fact);
+        let doubts = [
+            of_curve(facts::dimmed).map(|doses| {
+                format!(
+                    "the shutter is in the light's path, and dims the flashes to {doses}; \
+                     --duty 0.5 (pulses) or --fully-open (xenon) makes doses equal"
+                )
+            }),
+            of_curve(facts::unequal).map(|by| {
+                format!("a tick is so long that the doses differ by up to {by} %; a faster timer makes them equal")
+            }),
+            facts::coarse(plan).map(|by| {
+                let by = short(by, 2);
+                format!(
+                    "a tick is so long that flashes move by up to {by} % of a share; a faster timer moves them less"
+                )
+            }),
+        ];
+        told.extend(doubts.into_iter().flatten().map(|doubt| format!("warning: {name}: {doubt}\n")));
     }
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {

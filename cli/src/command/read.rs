@@ -63,8 +63,9 @@ impl<'a> Read<'a> {
         let sync = match sync {
             Some(Asked::Time(_)) if reading.is_counted() => {
                 return Err(format!(
-                    "{}: --sync: times are counted from the first row, and nothing tells how long that is before or after the \
-                     edge; name the column of the sync, or take a record with times; read: {reading}",
+                    "{}: --sync: times are counted from the first row, and nothing tells how long that is \
+                     before or after the edge; name the column of the sync, or take a record with times; \
+                     read: {reading}",
                     shown(path)
                 ));
             }

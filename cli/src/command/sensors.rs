@@ -25,6 +25,6 @@ pub fn table(sensors: &[Speed]) -> String {
         [name.clone(), exposure, more, later(0), later(1), fit.chosen.title().into()]
     };
     columns(header, sensors.iter().enumerate().map(row))
-        + "stops: how much more light the sensor gets than the first one; opens, closes later by: the travel of the first and of the\n\
-           second curtain from the first sensor to this one, at half light\n"
+        + "stops: how much more light the sensor gets than the first one; opens, closes later by: the travel of \
+           the first and of the\nsecond curtain from the first sensor to this one, at half light\n"
 }

@@ -74,8 +74,8 @@ impl Settings {
         let said = self.sync_falls.filter(|said| *said != told)?;
         let edge = if said { "falling" } else { "rising" };
         Some(format!(
-            "{file} has sync_falls = {told}, and --sync-falls {said} counts from the {edge} edge: that is right if something \
-             between the camera and the timer inverts the sync"
+            "{file} has sync_falls = {told}, and --sync-falls {said} counts from the {edge} edge: that is right if \
+             something between the camera and the timer inverts the sync"
         ))
     }
 }

@@ -72,7 +72,8 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     let (lower, upper) = names(called);
     let bits = one.timer.bits;
     let mut body = format!(
-        "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n#define {upper}_SPEEDS {}\n{}\n",
+        "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n\
+         #define {upper}_SPEEDS {}\n{}\n",
         one.timer.hz,
         plans.len(),
         edge(&upper, one)
@@ -106,7 +107,8 @@ fn edge(upper: &str, plan: &Planned) -> String {
     falls(plan).map_or(String::new(), |falls| {
         let falls = u8::from(falls);
         format!(
-            "/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n#define {upper}_SYNC_FALLS {falls}\n"
+            "/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n\
+             #define {upper}_SYNC_FALLS {falls}\n"
         )
     })
 }

@@ -24,7 +24,8 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
     let mut text = format!("// {MADE_BY}: {}, a shutter of {} speeds.\n\n", name::shown(called), plans.len());
     text += &common(one);
     text += &format!(
-        "\n/// A speed of the shutter.\n{ALLOW}\npub struct Speed {{\n    /// The scene's name.\n    pub name: &'static str,\n"
+        "\n/// A speed of the shutter.\n{ALLOW}\npub struct Speed {{\n    /// The scene's name.\n    \
+         pub name: &'static str,\n"
     );
     let delay = one.delay.map(|_| {
         text += &format!("    /// See `DELAY_TICKS`.\n    pub delay_ticks: {int},\n");
@@ -66,7 +67,8 @@ fn common(plan: &Planned) -> String {
     let mut text = format!("/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {hz};\n");
     if let Some(falls) = falls(plan) {
         text += &format!(
-            "\n/// Which edge of the camera's sync counts: the falling one, or the rising one.\n{ALLOW}\npub const SYNC_FALLS: bool = {falls};\n"
+            "\n/// Which edge of the camera's sync counts: the falling one, or the rising one.\n{ALLOW}\n\
+             pub const SYNC_FALLS: bool = {falls};\n"
         );
     }
     text

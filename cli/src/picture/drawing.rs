@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::unit::{Unit, decimals, trimmed};
 
-use super::style::{self, Area, BLUE, FAINT, GREY, Graph, LIGHT, VERMILION, dressed};
+use super::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, LIGHT, VERMILION, dressed};
 use crate::plan::Plan;
 
 pub type Drawn = Result<(), Box<dyn Error>>;
@@ -49,10 +49,11 @@ pub fn draw_curve(graph: &mut Graph, plan: &Plan, f: impl Fn(f32) -> f32) -> Dra
     Ok(())
 }
 
-/// An axis: its range, its name, and how its numbers are written.
+/// An axis: its range, its name, how many numbers it has at most, and how these are written.
 pub struct Axis<'a> {
     pub range: Range<f64>,
     pub name: Option<&'a str>,
+    pub labels: usize,
     pub label: &'a dyn Fn(&f64) -> String,
 }
 
@@ -76,8 +77,8 @@ pub fn axes<'a, 'b>(area: &'a Area<'b>, x: Axis, y: Axis, room: i32) -> Result<G
         .axis_desc_style(style::font(15 * SCALE))
         .x_desc(x.name.unwrap_or_default())
         .y_desc(y.name.unwrap_or_default())
-        .x_labels(11)
-        .y_labels(6)
+        .x_labels(x.labels)
+        .y_labels(y.labels)
         .x_label_formatter(x.label)
         .y_label_formatter(y.label)
         .draw()?;
@@ -93,8 +94,8 @@ pub fn graph<'a, 'b>(
     range: Range<f64>,
 ) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
     let places = decimals(plan.unit.of(plan.length), 3);
-    let time = Axis { range: time_range(plan), name: x, label: &|t| trimmed(*t, places) };
-    axes(area, time, Axis { range, name: Some(y), label: &|y| format!("{y:.1}") }, 60)
+    let time = Axis { range: time_range(plan), name: x, labels: 11, label: &|t| trimmed(*t, places) };
+    axes(area, time, Axis { range, name: Some(y), labels: 6, label: &|y| format!("{y:.1}") }, 60)
 }
 
 /// The axis of time: the interval, and a little room on either side.
@@ -134,6 +135,48 @@ pub fn lit() -> ShapeStyle {
 /// A trigger.
 pub fn dot<C>(at: C) -> Circle<C, i32> {
     Circle::new(at, 4 * SCALE, VERMILION.filled())
+}
+
+/// A control point.
+pub fn knob<C>(at: C) -> Circle<C, i32> {
+    Circle::new(at, 5 * SCALE, pen(INK, 1.5))
+}
+
+/// A sign of a graph.
+pub enum Key {
+    Line,
+    Trace,
+    Dot,
+    Lamp,
+    Handle,
+}
+
+/// What the signs mean, below the heading on a page of this width.
+pub fn legend(area: &Area, page: i32, keys: &[(&str, Key)]) -> Drawn {
+    // By so much a letter is wide, at most.
+    let width = |name: &str| 34 + 8 * name.len() as i32;
+    let all: i32 = keys.iter().map(|(name, _)| width(name)).sum();
+    let (mut x, y) = ((page - all) / 2 * SCALE, 74 * SCALE);
+    for (name, key) in keys {
+        let (from, middle, to) = (x, x + 11 * SCALE, x + 22 * SCALE);
+        let line = |color, width| PathElement::new([(from, y), (to, y)], pen(color, width));
+        match key {
+            Key::Line => area.draw(&line(BLUE, 2.5))?,
+            Key::Trace => area.draw(&line(GREY, 1.2))?,
+            Key::Dot => area.draw(&dot((middle, y)))?,
+            Key::Lamp => {
+                area.draw(&Rectangle::new([(from + 4 * SCALE, y - 6 * SCALE), (to - 4 * SCALE, y + 6 * SCALE)], lit()))?
+            }
+            Key::Handle => {
+                area.draw(&line(GREY, 2.0))?;
+                area.draw(&knob((to - 4 * SCALE, y)))?;
+            }
+        }
+        let label = style::text(13 * SCALE, HPos::Left, VPos::Center);
+        area.draw_text(name, &label, (to + 7 * SCALE, y))?;
+        x += width(name) * SCALE;
+    }
+    Ok(())
 }
 
 /// A line to each mark, and a dot on it where these do not run into each other.

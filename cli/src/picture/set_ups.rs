@@ -7,8 +7,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::unit::short;
 
-use super::drawing::{Drawn, SCALE, below, draw_curve, graph, lit, pen, picture, steps};
-use super::style::{self, Area, BLUE, FAINT, GREY, VERMILION};
+use super::drawing::{Axis, Drawn, SCALE, axes, below, draw_curve, graph, lit, pen, picture, steps, write_heading};
+use super::style::{self, Area, BLUE, VERMILION};
 use crate::plan::Plan;
 use crate::set_up::{Row, SetUps};
 
@@ -26,12 +26,8 @@ pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let title = format!("The doses of {n} pulses with the shutter {name}, emulated and in the light's path");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
-        let text = format!("{name}: the light of {n} pulses in the two set-ups");
-        let label = style::text(19 * SCALE, HPos::Left, VPos::Center);
-        heading.draw_text(&text, &label, (24 * SCALE, 26 * SCALE))?;
-        let text = "outlined: the lamp is on; filled: its light that arrives; dashed: the curve that is meant";
-        let label = style::text(13 * SCALE, HPos::Left, VPos::Center);
-        heading.draw_text(text, &label, (24 * SCALE, 52 * SCALE))?;
+        let facts = "outlined: the lamp is on; filled: its light that arrives; dashed: the curve that is meant";
+        write_heading(&heading, SIZE.0, &format!("{name}: the light of {n} pulses in the two set-ups"), facts)?;
         for (area, row) in rest.split_evenly((rows.len(), 1)).iter().zip(&rows) {
             draw_row(area, plan, row, length)?;
         }
@@ -78,29 +74,11 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
 /// A bar for the dose of each pulse, 1 being that of an equal pulse which nothing dims.
 fn draw_doses(area: &Area, doses: &[f64]) -> Drawn {
     let n = doses.len() as f64;
-    let mut graph = ChartBuilder::on(area)
-        .margin_right(24 * SCALE)
-        .margin_top(8 * SCALE)
-        .margin_bottom(8 * SCALE)
-        .x_label_area_size(50 * SCALE)
-        .y_label_area_size(62 * SCALE)
-        .build_cartesian_2d(-0.5..n - 0.5, 0.0..1.3)?;
-    graph
-        .configure_mesh()
-        .disable_x_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(pen(FAINT, 1.0))
-        .axis_style(pen(GREY, 1.0))
-        .label_style(style::font(14 * SCALE))
-        .axis_desc_style(style::font(15 * SCALE))
-        .set_all_tick_mark_size(5 * SCALE)
-        .x_desc("pulse")
-        .y_desc("dose")
-        .x_labels(doses.len().min(12))
-        .y_labels(4)
-        .x_label_formatter(&|x| format!("{x:.0}"))
-        .y_label_formatter(&|y| format!("{:.0} %", 100.0 * y))
-        .draw()?;
+    let pulse = |x: &f64| format!("{x:.0}");
+    let percent = |y: &f64| format!("{:.0} %", 100.0 * y);
+    let across = Axis { range: -0.5..n - 0.5, name: Some("pulse"), labels: doses.len().min(6), label: &pulse };
+    let up = Axis { range: 0.0..1.3, name: Some("dose"), labels: 4, label: &percent };
+    let mut graph = axes(area, across, up, 62)?;
     let bars = (0u32..).zip(doses).map(|(i, &dose)| {
         let i = f64::from(i);
         Rectangle::new([(i - 0.36, 0.0), (i + 0.36, dose)], lit())

@@ -29,8 +29,9 @@ pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
         let facts = format!("no curve: {triggers} as measured");
         write_heading(&heading, SIZE.0, name, &facts)?;
         let (time, places) = (format!("time ({})", unit.name()), decimals(end - start, 3));
-        let across = Axis { range: first - room..end + room, name: Some(&time), label: &|t| trimmed(*t, places) };
-        let up = Axis { range: 0.0..1.2, name: None, label: &|_| String::new() };
+        let across =
+            Axis { range: first - room..end + room, name: Some(&time), labels: 11, label: &|t| trimmed(*t, places) };
+        let up = Axis { range: 0.0..1.2, name: None, labels: 6, label: &|_| String::new() };
         let mut graph = axes(&rest, across, up, 20)?;
         let marks = times.triggers.iter().map(|trigger| (unit.of(trigger.time), 1.0));
         draw_marks(&mut graph, marks, |(t, y)| vec![(t, 0.0), (t, y)])?;

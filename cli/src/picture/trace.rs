@@ -4,13 +4,12 @@ use std::error::Error;
 use std::ops::Range;
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::trace::Trace;
 use shutter_fit::unit::{decimals, short, trimmed};
 use shutter_fit::{Fit, From};
 
-use super::drawing::{Axis, Drawn, SCALE, axes, dot, draw_marks, pen, picture};
-use super::style::{self, Area, BLUE, GREY, Graph};
+use super::drawing::{Axis, Drawn, Key, SCALE, axes, draw_marks, legend, pen, picture};
+use super::style::{Area, BLUE, GREY, Graph};
 
 const SIZE: (i32, i32) = (900, 640);
 const HEADING: i32 = 88;
@@ -42,23 +41,11 @@ fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
         short(100.0 * fit.best().rms, 3),
     );
     super::drawing::write_heading(area, SIZE.0, name, &facts)?;
-    let y = 74 * SCALE;
     let trigger = match fit.from {
         From::Model => "trigger",
         From::Trace => "trigger by the trace",
     };
-    for (k, name) in ["trace", "fitted curve", trigger].into_iter().enumerate() {
-        let x = (SIZE.0 / 2 - 190 + 140 * k as i32) * SCALE;
-        let line = |color, width| PathElement::new([(x, y), (x + 22 * SCALE, y)], pen(color, width));
-        match k {
-            0 => area.draw(&line(GREY, 1.2))?,
-            1 => area.draw(&line(BLUE, 2.5))?,
-            _ => area.draw(&dot((x + 11 * SCALE, y)))?,
-        }
-        let label = style::text(13 * SCALE, HPos::Left, VPos::Center);
-        area.draw_text(name, &label, (x + 29 * SCALE, y))?;
-    }
-    Ok(())
+    legend(area, SIZE.0, &[("trace", Key::Trace), ("fitted curve", Key::Line), (trigger, Key::Dot)])
 }
 
 fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
@@ -156,6 +143,6 @@ fn graph<'a, 'b>(
     let (unit, (first, last)) = (fit.unit(), ends(fit));
     let (across, up) = (decimals(unit.of(last - first), 3), decimals(range.end - range.start, 3));
     let time = unit.of(first)..unit.of(last);
-    let time = Axis { range: time, name: x, label: &|t| trimmed(*t, across) };
-    axes(area, time, Axis { range, name: Some(y), label: &|y| trimmed(*y, up) }, 72)
+    let time = Axis { range: time, name: x, labels: 11, label: &|t| trimmed(*t, across) };
+    axes(area, time, Axis { range, name: Some(y), labels: 6, label: &|y| trimmed(*y, up) }, 72)
 }

@@ -155,7 +155,8 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
             for speed in &late::SPEEDS { println!("{} {} {:?}", speed.name, speed.delay_ticks, speed.ticks); }
             for speed in &times::SPEEDS { println!("{} {:?}", speed.delay_ticks, speed.ticks); }
             for speed in &lit::SPEEDS {
-                let pulses = speed.shutter.pulse_ticks(u32::try_from(speed.pulses.len()).unwrap(), 0.3, lit::TIMER_HZ).unwrap();
+                let n = u32::try_from(speed.pulses.len()).unwrap();
+                let pulses = speed.shutter.pulse_ticks(n, 0.3, lit::TIMER_HZ).unwrap();
                 assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(speed.pulses.iter().copied()));
             }
         }"#;
@@ -263,7 +264,8 @@ fn speeds_are_an_array_of_c() {
         let includes = ["camera.h", "slow.h", "camera.h"].map(|file| format!("#include \"{file}\"\n"));
         let body = format!(
             "for (unsigned s = 0; s < CAMERA_SPEEDS; s++) {{
-                printf(\"%s %lu %lu\\n\", camera_speeds[s].name, (unsigned long)CAMERA_TIMER_HZ, (unsigned long){delay});
+                printf(\"%s %lu \", camera_speeds[s].name, (unsigned long)CAMERA_TIMER_HZ);
+                printf(\"%lu\\n\", (unsigned long){delay});
                 for (unsigned i = 0; i < camera_speeds[s].count; i++) printf({print});
             }}"
         );
@@ -406,7 +408,8 @@ fn hardware_gets_nothing_that_nobody_gave() {
     let timer = "\n  timer_hz = ...       # your timer's rate, in Hz";
     let edge = "\n  sync_falls = ...     # true, or false if the delay counts from an edge that rises";
     let set_up = "
-  set_up = \"emulated\"  # the camera's own shutter stays open: the first, the middle and the last flash give 100, 100 and 100 %
+  set_up = \"emulated\"  # the camera's own shutter stays open: the first, the middle and the last flash \
+         give 100, 100 and 100 %
   set_up = \"in_path\"   # this shutter is in the light's path, and dims them to 43.5, 100 and 51.2 %; all alike
                        # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)";
     assert_eq!(without("timer_hz"), format!("{head}{timer}"));

@@ -60,7 +60,7 @@ fn what_is_doubtful_is_told() {
     let near = |x: f64, to: f64, by: f64| (x - to).abs() < by;
     still(
         &with(&|t, v| v + 0.04 * (std::f64::consts::TAU * 400.0 * t).sin()),
-        &|w| matches!(w, Warning::Hum { hertz, amplitude } if near(*hertz, 400.0, 4.0) && near(*amplitude, 0.02, 0.002)),
+        &|w| matches!(w, Warning::Hum { hertz: f, amplitude } if near(*f, 400.0, 4.0) && near(*amplitude, 0.02, 0.002)),
     );
     still(&with(&|t, v| v + 8.0 * t), &|w| matches!(w, Warning::Drift { amount } if near(*amount, 0.048, 0.004)));
     let spikes = with(&|t, v| {

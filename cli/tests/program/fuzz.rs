@@ -68,8 +68,8 @@ fn whole(random: &mut Random) -> Vec<u8> {
 /// What is put in the place of something else.
 #[rustfmt::skip]
 const TOKENS: [&str; 20] = [
-    "0", "-1", "1e308", "-1e308", "1e-308", "NaN", "inf", "-inf", "10", "", "1,234", "1e30", "0.0000001", ",", ";", "\t", "\"", "\n",
-    "s", "1.0.0",
+    "0", "-1", "1e308", "-1e308", "1e-308", "NaN", "inf", "-inf", "10", "", "1,234", "1e30", "0.0000001", ",", ";",
+    "\t", "\"", "\n", "s", "1.0.0",
 ];
 
 /// Changes the file in one way.

@@ -87,7 +87,8 @@ fn a_lamps_lag_is_taken_off() {
     let pulse = hardware("triggers = 1; lamp_lag = 1; pulse = 1");
     let edges = ["ticks", "on_ticks", "off_ticks"].map(|key| column(&pulse, key)[0]);
     assert_eq!(edges, [2250.0, 1750.0, 2750.0]);
-    let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2, 3]\ntimer_hz = 1000\nmin_gap = 0\nset_up = 'emulated'\nlamp_lag = 1";
+    let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2, 3]\ntimer_hz = 1000\nmin_gap = 0\n\
+                 set_up = 'emulated'\nlamp_lag = 1";
     assert_eq!(column(&Planned::parse(times).unwrap(), "ticks"), [0.0, 1.0]);
 }
 
@@ -135,7 +136,8 @@ fn the_command_line_answers_for_one_run() {
 /// What a scene keeps of its fit goes along: the bound of the efficiency, and each doubt.
 #[test]
 fn what_the_fit_doubted_is_in_every_form() {
-    let head = "# Fitted to x.csv: straight ramps.\n# Exposure 5.5 ± 0.1 ms, efficiency at most 80 %, standard errors behind ±.\n\
+    let head = "# Fitted to x.csv: straight ramps.\n\
+                # Exposure 5.5 ± 0.1 ms, efficiency at most 80 %, standard errors behind ±.\n\
                 # Warning: the lamp flickers.\n";
     let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2]\nmin_gap = 0\n";
     for scene in [&with(LEAF, "triggers = 4 -> triggers = 4\n# Warning: not the fit's."), times] {

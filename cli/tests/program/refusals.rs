@@ -13,7 +13,8 @@ pub const LEAF: &str =
     "unit = 'ms'\nopen_start = 1\nopen_end = 2\nclose_start = 6\nclose_end = 8\nmin_gap = 0\ntriggers = 4\n";
 /// Its frame ends 12.9576195 ms after the edge.
 pub const MEASURED: &str = include_str!("../../scenes/measured.toml");
-pub const TIMES: &str = "unit = 'ms'\nopen_start = 4.1\ntimer_hz = 1_000_000\nmin_gap = 0.1\ntrigger_times = [\n  5.0, 5.5,\n  6.1004,\n]\n";
+pub const TIMES: &str = "unit = 'ms'\nopen_start = 4.1\ntimer_hz = 1_000_000\nmin_gap = 0.1\n\
+                         trigger_times = [\n  5.0, 5.5,\n  6.1004,\n]\n";
 
 /// A scene with changes, parted by `; `: `KEY = VALUE` in place of the key's line or below all, `KEY` without it, `A ->
 /// B`.
@@ -64,7 +65,7 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TRAPEZOID, "open_start", "", "missing field `open_start`"),
     (TRAPEZOID, "min_gap", "", "missing field `min_gap`"),
     (TRAPEZOID, "colour = 3", "colour", "unknown field `colour`, expected one of `unit`, `open_start`…\
-        `sync_falls`, `lamp_lag`, `set_up`, `fully_open`, or `trigger_times` in place of a curve"),
+        `sync_falls`, `lamp_lag`, `set_up`, `fully_open`, `trigger_times`"),
     (TRAPEZOID, "min_gap = 0.1 -> min_gap = 0.1\ntriggers = 3", "triggers", "duplicate key"),
     (TRAPEZOID, "triggers = = 3", "triggers", "…"),
     (TRAPEZOID, "open_end = \"soon\"", "open_end", "open_end: a number is required"),
@@ -86,17 +87,21 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TRAPEZOID, "min_gap = -0.1", "min_gap", "min_gap: 0 or more is required"),
     (TRAPEZOID, "min_gap = inf", "min_gap", "min_gap: a finite number is required"),
     (TRAPEZOID, "min_gap = nan", "min_gap", "min_gap: a finite number is required"),
-    (TRAPEZOID, "shutteropening = [0.1, 0.0, 0.2, 1.0, 0.8, 1.0, 0.9]", "shutteropening", "shutteropening: 8 numbers are required, not 7"),
+    (TRAPEZOID, "shutteropening = [0.1, 0.0, 0.2, 1.0, 0.8, 1.0, 0.9]", "shutteropening",
+        "shutteropening: 8 numbers are required, not 7"),
     (TRAPEZOID, "shutteropening = [0.1, 0.0, 0.2, 1.0, 0.8, 1.0, 0.9, 0.0, 0.0]", "shutteropening",
         "shutteropening: 8 numbers are required, not 9"),
-    (TRAPEZOID, "shutteropening = [nan, 0, 0.15, 1, 0.85, 1, 0.9, 0]", "shutteropening", "shutteropening: a finite number is required"),
-    (TRAPEZOID, "shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 1e39]", "shutteropening", "shutteropening: a finite number is required"),
+    (TRAPEZOID, "shutteropening = [nan, 0, 0.15, 1, 0.85, 1, 0.9, 0]", "shutteropening",
+        "shutteropening: a finite number is required"),
+    (TRAPEZOID, "shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 1e39]", "shutteropening",
+        "shutteropening: a finite number is required"),
     (TRAPEZOID, "timer_hz = 0", "timer_hz", HZ),
     (TRAPEZOID, "timer_hz = 0.4", "timer_hz", HZ),
     (TRAPEZOID, "timer_hz = -1", "timer_hz", HZ),
     (TRAPEZOID, "timer_hz = nan", "timer_hz", HZ),
     (TRAPEZOID, "timer_hz = 5_000_000_000", "timer_hz", HZ),
-    (TRAPEZOID, "timer_hz = 2147483649", "timer_hz", "timer_hz: the interval is longer than 2^31 ticks; up to 2147483648 Hz it is not"),
+    (TRAPEZOID, "timer_hz = 2147483649", "timer_hz",
+        "timer_hz: the interval is longer than 2^31 ticks; up to 2147483648 Hz it is not"),
     (BOX, "nominal = 0", "nominal", "nominal: more than 0 is required"),
     (BOX, "nominal = inf", "nominal", "nominal: a finite number is required"),
     // Curves.
@@ -108,10 +113,13 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TRAPEZOID, "close_end = 0.7", "close_end", ORDER),
     (TRAPEZOID, "close_end = 1e30", "close_end",
         "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19); it lasts 1e30 s"),
-    (LEAF, "open_start = 0; open_end = 1e-9; close_start = 0.75; close_end = 1", "open_end", "opening ramp: it is shorter than \
+    (LEAF, "open_start = 0; open_end = 1e-9; close_start = 0.75; close_end = 1", "open_end",
+        "opening ramp: it is shorter than \
         2^-24 of the greatest time; make it longer, or give it no length; it lasts 1e-9 ms"),
-    (LEAF, "open_start = -1; open_end = -0.5; close_start = -1e-9; close_end = 0", "close_end", "closing ramp: it is shorter than 2^-24 …"),
-    (LEAF, "open_start = -1; open_end = 0; close_start = 1e-9; close_end = 1", "close_start", "plateau: it is shorter than 2^-24 …"),
+    (LEAF, "open_start = -1; open_end = -0.5; close_start = -1e-9; close_end = 0", "close_end",
+        "closing ramp: it is shorter than 2^-24 …"),
+    (LEAF, "open_start = -1; open_end = 0; close_start = 1e-9; close_end = 1", "close_start",
+        "plateau: it is shorter than 2^-24 …"),
     (LEAF, "open_start = 131071000; open_end = 131071000; close_start = 131072000; close_end = 131072000", "close_end",
         "the interval is too short for its distance from time 0: below 2^-16 of its greatest time; count times \
          from a nearer origin; it lasts 1000 ms"),
@@ -119,7 +127,8 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
         "open_end: f32 is off by 25 % of the interval here; count the times from nearer to open_start"),
     // Triggers that are too close: they come at 265.625 and 359.375 ticks, and two on one tick though no gap is asked
     // for.
-    (TRAPEZOID, "triggers = 8", "triggers", "triggers 1 and 2 come 93 ticks apart, and 100 are required; up to 7 triggers keep that"),
+    (TRAPEZOID, "triggers = 8", "triggers",
+        "triggers 1 and 2 come 93 ticks apart, and 100 are required; up to 7 triggers keep that"),
     (TRAPEZOID, "timer_hz = 6; min_gap = 0", "triggers",
         "triggers 1 and 2 come 0 ticks apart, and 1 is required; up to 5 triggers keep that"),
     (TRAPEZOID, "triggers = 2; min_gap = 0.5", "triggers",
@@ -130,14 +139,18 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (BOX, "triggers = 10; min_gap = 0.1", "", ""),
     (BOX, "triggers = 10; min_gap = 0.099", "", ""),
     (BOX, "triggers = 10; min_gap = 0.0999", "", ""),
-    (BOX, "triggers = 10; min_gap = 0.1001", "triggers", "triggers 0 and 1 come 100 ticks apart, and 101 are required…"),
+    (BOX, "triggers = 10; min_gap = 0.1001", "triggers",
+        "triggers 0 and 1 come 100 ticks apart, and 101 are required…"),
     // Timers: a prime has no prescaler that leaves a whole rate.
-    (MEASURED, "timer_hz = 84_000_000; timer_bits = 16", "timer_bits", "timer_bits: the frame ends at tick 1088440, and with 16 bits \
+    (MEASURED, "timer_hz = 84_000_000; timer_bits = 16", "timer_bits",
+        "timer_bits: the frame ends at tick 1088440, and with 16 bits \
         it may end at 32768 at the latest; a prescaler of 35 fits: timer_hz = 2400000"),
-    (MEASURED, "timer_hz = 83_999_971; timer_bits = 16", "timer_bits", "…a prescaler of 34 fits: timer_hz = 2470587.382"),
+    (MEASURED, "timer_hz = 83_999_971; timer_bits = 16", "timer_bits",
+        "…a prescaler of 34 fits: timer_hz = 2470587.382"),
     (MEASURED, "timer_bits = 24", "timer_bits", "timer_bits: 16 or 32 is required"),
     (TIMES, "timer_hz = 1000; timer_bits = 16; delay = 1000; 5.0, 5.5,\n  6.1004 -> 5000, 31772", "", ""),
-    (TIMES, "timer_hz = 1000; timer_bits = 16; delay = 1000; 5.0, 5.5,\n  6.1004 -> 5000, 31773", "timer_bits", "timer_bits: the frame ends at tick 32769,…"),
+    (TIMES, "timer_hz = 1000; timer_bits = 16; delay = 1000; 5.0, 5.5,\n  6.1004 -> 5000, 31773", "timer_bits",
+        "timer_bits: the frame ends at tick 32769,…"),
     // Delays. The frame takes 1000 ticks of 1 kHz; 2^31 - 1000 are left for the delay.
     (TRAPEZOID, "delay = -1e-9", "delay", "delay: 0 or more is required; an edge cannot trigger what comes before it"),
     (TRAPEZOID, "delay = nan", "delay", "delay: a finite number is required"),
@@ -159,19 +172,26 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (BOX, "duty = 1.001", "duty", "duty: above 0 and at most 1 is required"),
     (BOX, "duty = nan", "duty", "duty: above 0 and at most 1 is required"),
     (BOX, "min_pulse = 0.1", "min_pulse", "min_pulse: it goes with duty, which makes pulses of many lengths"),
-    (BOX, "duty = 0.5; pulse = 0.1", "duty", "duty and pulse: a scene has one of them (pulse where the curve is emulated, duty where \
+    (BOX, "duty = 0.5; pulse = 0.1", "duty",
+        "duty and pulse: a scene has one of them (pulse where the curve is emulated, duty where \
         the shutter is in the light's path)"),
-    (BOX, "pulse = 0.2", "pulse", "pulses of 200 ticks: pulses 0 and 1 come 50 ticks apart, and 100 are required; those of up to 150 \
+    (BOX, "pulse = 0.2", "pulse",
+        "pulses of 200 ticks: pulses 0 and 1 come 50 ticks apart, and 100 are required; those of up to 150 \
         ticks fit, or up to 3 triggers keep that"),
-    (BOX, "pulse = 0.3", "pulse", "pulses of 300 ticks: pulses 0 and 1 overlap by 50 ticks, and 100 are required; those of up to 150 \
+    (BOX, "pulse = 0.3", "pulse",
+        "pulses of 300 ticks: pulses 0 and 1 overlap by 50 ticks, and 100 are required; those of up to 150 \
         ticks fit, or up to 2 triggers keep that"),
-    (BOX, "pulse = 1e30", "pulse", "pulses of 4294967295 ticks: pulses 0 and 1 overlap by 4294967045 ticks, and 100 are required; \
+    (BOX, "pulse = 1e30", "pulse",
+        "pulses of 4294967295 ticks: pulses 0 and 1 overlap by 4294967045 ticks, and 100 are required; \
         those of up to 150 ticks fit"),
-    (BOX, "duty = 0.8", "triggers", "pulses 0 and 1 come 50 ticks apart, and 100 are required; up to 2 triggers keep that; a smaller \
+    (BOX, "duty = 0.8", "triggers",
+        "pulses 0 and 1 come 50 ticks apart, and 100 are required; up to 2 triggers keep that; a smaller \
         duty leaves more"),
-    (BOX, "duty = 0.5; min_pulse = 0.2", "triggers", "pulse 0 lasts 125 ticks, and 200 are required; up to 2 triggers keep that; a \
+    (BOX, "duty = 0.5; min_pulse = 0.2", "triggers",
+        "pulse 0 lasts 125 ticks, and 200 are required; up to 2 triggers keep that; a \
         greater duty lasts longer"),
-    (BOX, "duty = 1e-9", "triggers", "pulse 0 lasts 0 ticks, and 1 is required; no number of triggers keeps that; a greater duty lasts \
+    (BOX, "duty = 1e-9", "triggers",
+        "pulse 0 lasts 0 ticks, and 1 is required; no number of triggers keeps that; a greater duty lasts \
         longer"),
     // A single pulse that just fits, or is too long for the time before its trigger, after it, or for both.
     (BOX, "triggers = 1; close_start = 0; pulse = 0.587", "", ""),
@@ -184,20 +204,24 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (BOX, "triggers = 1; pulse = 1.001", "pulse",
         "pulses of 1001 ticks: they reach beyond the time that the shutter is open; those of up to 1000 ticks fit"),
     // What is for the other set-up, and a plateau that has no room.
-    (LEAF, "set_up = 'emulated'; duty = 0.5", "duty", "duty: it is for a shutter in the light's path, and set_up is \"emulated\"; \
+    (LEAF, "set_up = 'emulated'; duty = 0.5", "duty",
+        "duty: it is for a shutter in the light's path, and set_up is \"emulated\"; \
         there, `pulse` makes equal pulses"),
-    (LEAF, "set_up = 'emulated'; fully_open = true", "fully_open", "fully_open: it is for a shutter in the light's path, and set_up is \
+    (LEAF, "set_up = 'emulated'; fully_open = true", "fully_open",
+        "fully_open: it is for a shutter in the light's path, and set_up is \
         \"emulated\"; there, flashes come at the triggers"),
     (LEAF, "duty = 0.5; fully_open = true", "fully_open", FLASHES),
     (LEAF, "pulse = 0.1; fully_open = true", "fully_open", FLASHES),
-    (LEAF, "close_start = 2; fully_open = true", "fully_open", "fully_open: this shutter begins to close as soon as it is open"),
+    (LEAF, "close_start = 2; fully_open = true", "fully_open",
+        "fully_open: this shutter begins to close as soon as it is open"),
     // No tick is rounded to where the shutter moves.
     (LEAF, "triggers = 1; timer_hz = 100; set_up = 'in_path'; fully_open = true", "triggers",
         "the frame does not fit; no number of triggers keeps that"),
     // A lamp's lag. Without a delay it may take all that comes before the first trigger.
     (LEAF, "timer_hz = 1_000_000; set_up = 'in_path'; fully_open = true; lamp_lag = 1.5", "", ""),
-    (LEAF, "timer_hz = 1_000_000; set_up = 'in_path'; fully_open = true; lamp_lag = 1.6", "lamp_lag", "lamp_lag: the first trigger \
-        would come 0.1 ms before the start of opening, from where ticks count without a delay; a lag of 1.5 ms is the most"),
+    (LEAF, "timer_hz = 1_000_000; set_up = 'in_path'; fully_open = true; lamp_lag = 1.6", "lamp_lag",
+        "lamp_lag: the first trigger would come 0.1 ms before the start of opening, from where ticks count without \
+        a delay; a lag of 1.5 ms is the most"),
     (LEAF, "timer_hz = 1_000_000; set_up = 'in_path'; fully_open = true; delay = 2; lamp_lag = 3.75", "lamp_lag",
         "lamp_lag: the first trigger would come 0.25 ms before the edge of the sync; a lag of 3.5 ms is the most"),
     (LEAF, "lamp_lag = -1", "lamp_lag", "lamp_lag: 0 or more is required"),
@@ -205,14 +229,20 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TIMES, "lamp_lag = 0.9", "", ""),
     (TIMES, "lamp_lag = 1", "lamp_lag", "lamp_lag: the first trigger would come 0.1 ms before the start of opening…"),
     // Times without a curve.
-    (TIMES, "close_end = 9", "close_end", "close_end: it is a curve's, and the triggers of this scene are given by their times"),
-    (TIMES, "shutteropening = 9", "shutteropening", "shutteropening: it is a curve's, and the triggers of this scene are given by their times"),
+    (TIMES, "close_end = 9", "close_end",
+        "close_end: it is a curve's, and the triggers of this scene are given by their times"),
+    (TIMES, "shutteropening = 9", "shutteropening",
+        "shutteropening: it is a curve's, and the triggers of this scene are given by their times"),
     (TIMES, "triggers = 3", "triggers", "triggers: their number is that of trigger_times"),
-    (TIMES, "pulse = 0.1", "pulse", "pulse: pulses are checked against a curve, and a scene with trigger_times has none"),
+    (TIMES, "pulse = 0.1", "pulse",
+        "pulse: pulses are checked against a curve, and a scene with trigger_times has none"),
     (TIMES, "duty = 0.1", "duty", "duty: pulses are checked against a curve, and a scene with trigger_times has none"),
-    (TIMES, "min_pulse = 0.1", "min_pulse", "min_pulse: pulses are checked against a curve, and a scene with trigger_times has none"),
-    (TIMES, "fully_open = true", "fully_open", "fully_open: when the shutter is fully open is a curve's, and this scene has none"),
-    (TIMES, "set_up = 'in_path'", "set_up", "set_up: what a shutter in the light's path leaves of a flash comes from its curve…"),
+    (TIMES, "min_pulse = 0.1", "min_pulse",
+        "min_pulse: pulses are checked against a curve, and a scene with trigger_times has none"),
+    (TIMES, "fully_open = true", "fully_open",
+        "fully_open: when the shutter is fully open is a curve's, and this scene has none"),
+    (TIMES, "set_up = 'in_path'", "set_up",
+        "set_up: what a shutter in the light's path leaves of a flash comes from its curve…"),
     (TIMES, "open_start", "", "missing field `open_start`"),
     (TIMES, "min_gap", "", "missing field `min_gap`"),
     (TIMES, "5.5 -> '5.5'", "trigger_times", "trigger_times: a number is required"),
@@ -223,9 +253,11 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TIMES, "5.0 -> 4.0", "4.0", "trigger_times: trigger 0 comes before open_start, from where ticks count"),
     (TIMES, "6.1004 -> 5.5991", "5.5991", "trigger_times: triggers 1 and 2 come 99 ticks apart, and 100 are required"),
     // Whatever the lamp needs, a timer fires once a tick.
-    (TIMES, "min_gap = 0; 6.1004 -> 5.5001", "5.5001", "trigger_times: triggers 1 and 2 come 0 ticks apart, and 1 is required"),
+    (TIMES, "min_gap = 0; 6.1004 -> 5.5001", "5.5001",
+        "trigger_times: triggers 1 and 2 come 0 ticks apart, and 1 is required"),
     (TIMES, "6.1004 -> 2147487.748", "", ""),
-    (TIMES, "6.1004 -> 2147487.749", "2147487.749", "trigger_times: trigger 2 comes more than 2^31 ticks after open_start; count from \
+    (TIMES, "6.1004 -> 2147487.749", "2147487.749",
+        "trigger_times: trigger 2 comes more than 2^31 ticks after open_start; count from \
         nearer to it, or take a slower timer"),
     (TIMES, "timer_hz = 0", "timer_hz", HZ),
     (TIMES, "min_gap = -1", "min_gap", "min_gap: 0 or more is required"),
@@ -285,8 +317,8 @@ fn wrong_control_points_are_refused_with_their_convention() {
     };
     let fraction = |point: &str, number: &str| {
         format!(
-            "the time of its {point} inner point has to lie on the ramp, as a fraction of the whole interval: 0 at open_start, \
-             1 at close_end; it is {number}"
+            "the time of its {point} inner point has to lie on the ramp, as a fraction of the whole interval: 0 \
+             at open_start, 1 at close_end; it is {number}"
         )
     };
     let openness = |point: &str, number: &str| {
