@@ -1,10 +1,9 @@
 """Every ramp that rule 2 accepts, at once: an inequality that holds of a few extreme ramps holds of all.
 
-A ramp counts from 0 to 1 in place and in time. Its inner times `a` and `b` lie in a polygon with five corners (rule 2),
-its control openness `f` in [0, 1]. Time, openness and mass are linear in each of (a, b) and f, and so is what stands on
-an inequality's right here; what stands on its left is convex in each, a sum of sizes. So it holds everywhere if it holds
-at each corner, for each of a few `f` of which all others are sums with factors from 0 up. At one corner and `f` both
-sides are polynomials of the place.
+A ramp counts from 0 to 1 in place and in time. Its inner times lie in a polygon with five corners (rule 2), its control
+openness `f` in [0, 1]. An inequality's right here is linear in each of the times and `f`, its left, a sum of sizes,
+convex in each. So it holds everywhere if it holds at each corner, for each of a few `f` of which all others are sums
+with factors from 0 up. There both sides are polynomials of the place.
 """
 
 from math import comb
@@ -38,7 +37,8 @@ sizes = lambda p: [abs(c) for c in p]
 at = lambda p, x: sum(c * x**k for k, c in enumerate(p))
 order = lambda p: next(k for k, c in enumerate(p) if c != 0)
 # Bernstein's polynomials of degree 3.
-WEIGHTS = [[0 * ONE] * k + [ONE * comb(3, k) * comb(3 - k, j) * (-1) ** j for j in range(4 - k)] for k in range(4)]
+weight = lambda k: [0 * ONE] * k + [ONE * comb(3, k) * comb(3 - k, j) * (-1) ** j for j in range(4 - k)]
+WEIGHTS = [weight(k) for k in range(4)]
 SINGLE = [tuple(int(i == k) for i in range(4)) for k in range(4)]
 # With openness 1 at the last place: what rule 3 says of the end that meets the plateau.
 OPEN = [(i, j, k, 1) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
@@ -69,9 +69,10 @@ def least(p, start, end):
 
 
 def holds(factor, left, right, ramps, until=None, parts=128):
-    """Is left(ramp) <= factor * right(ramp) at all places? If `until` is given, only where until(ramp) <= 0, which rises.
+    """Is left(ramp) <= factor * right(ramp) at all places? `left` has no negative coefficient.
 
-    `left` has no negative coefficient. Some multiple of `until`, one for all ramps, may be added on the right.
+    If `until` is given, only where until(ramp) <= 0, which rises: some multiple of it, one for all ramps, may be added
+    on the right.
     """
     sides = []
     for ramp in ramps:
@@ -101,6 +102,14 @@ def holds(factor, left, right, ramps, until=None, parts=128):
     return True
 
 
+def tight(factor, left, right, ramps, until=None, less=Fraction(1, 2)):
+    """Does it hold, and not for so much less of the factor?"""
+    return holds(factor, left, right, ramps, until) and not holds(factor * less, left, right, ramps, until)
+
+
 # Of a ramp counted from its start: not more than 51 of 100 parts of the mass are before the place.
 SHARE = Fraction(51, 100)
 before_half = lambda r: plus(r.m, [-SHARE * sum(r.m)])
+# The same of its time; and the ramps that differ in that alone.
+half_time = lambda r: plus(r.t, [-SHARE])
+times_only = lambda: [Extreme(corner, (0, 0, 0, 1)) for corner in corners()]

@@ -1,7 +1,7 @@
 """The numbers and inequalities of an octave's certificate, by exact fractions and z3.
 
-Taken as known: on [-1, 1] a polynomial of degree n < N is at most 1 / cos(n pi / 2N) times its greatest value at the points
-cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
+Taken as known: on [-1, 1] a polynomial of degree n < N is at most 1 / cos(n pi / 2N) times its greatest value at the
+points cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
 """
 
 import math
@@ -23,7 +23,8 @@ exposure.rs join_fractions bec42778
 
 DEGREE, POINTS, FIRST_STRIDE = constant("DEGREE"), constant("POINTS"), constant("FIRST_STRIDE")
 ONE, COSINE = int(constant("ONE")), constant("COSINE")
-FACTOR = [Fraction(float(np.float32(x.replace("_", "")))) for x in re.findall(r"\d+\.[\d_]+", item("octave/bound.rs", "FACTOR"))]
+single = lambda text: Fraction(float(np.float32(text.replace("_", ""))))
+FACTOR = [single(text) for text in re.findall(r"\d+\.[\d_]+", item("octave/bound.rs", "FACTOR"))]
 STRIDES = (1, 2)
 
 
@@ -41,52 +42,59 @@ def off_table(first):
 
 
 off = off_table(float(COSINE))
-require(off <= Fraction(1, 2 * ONE) * (1 + Fraction(1, 2**10)) and off_table(float(COSINE) * (1 - 2.0**-40)) > off * 2, "cosines")
-proven(f"the table's {POINTS // 2 + 1} cosines are within 2^{log2(off):.2f}")
+proven(f"the table's {POINTS // 2 + 1} cosines are within 2^{log2(off):.2f}",
+       off <= Fraction(1, 2 * ONE) * (1 + Fraction(1, 2**10)) and off_table(float(COSINE) * (1 - 2.0**-40)) > off * 2)
 
-# --- The degree of R: an offset's, which is a fraction's, times the octave's; and of R times the openness. So the factors.
+# --- The degree of R: an offset's, which is a fraction's, times the octave's; and of R times the openness. So the
+# factors.
 n = 6 * DEGREE + 3
-require(n == 51 and n < POINTS // FIRST_STRIDE, "the degree")
 exact = {stride: 1 / cosine(n * stride / (2 * POINTS)) for stride in STRIDES}
 factor_off = max(abs(FACTOR[stride & 3] / exact[stride] - 1) for stride in STRIDES) / U
-require(factor_off <= 1 and FIRST_STRIDE == max(STRIDES), "FACTOR")
-require(abs(FACTOR[2] * cosine((n - 1) / POINTS) - 1) > 2**16 * U, "a degree of 50 would do")
-proven(f"R times the openness has degree {n}, and FACTOR is 1 / cos({n} pi / 2N) for N = {POINTS // 2} and {POINTS}, to {float(factor_off):.2f} roundings")
-# Samples are off their points, and so is a sample by Markov: max |p| <= F (seen + off n^2 max |p|). Roundings of 2^-24: a sample's two
-# words and their sum, its product with a weight, the sum with the noise, two by SLACK and FACTOR, and what FACTOR is off. The noise has
-# 14 of its own, at most.
+proven(f"R times the openness has degree {n}, and FACTOR is 1 / cos({n} pi / 2N) for N = {POINTS // 2} and {POINTS}, "
+       f"to {float(factor_off):.2f} roundings",
+       n == 51 and n < POINTS // FIRST_STRIDE and factor_off <= 1 and FIRST_STRIDE == max(STRIDES),
+       # A degree of 50 would not do.
+       abs(FACTOR[2] * cosine((n - 1) / POINTS) - 1) > 2**16 * U)
+# Samples are off their points, and so is a sample by Markov: max |p| <= F (seen + off n^2 max |p|). Roundings of 2^-24:
+# a sample's two words and their sum, its product with a weight, the sum with the noise, two by SLACK and FACTOR, and
+# what FACTOR is off. The noise has 14 of its own, at most.
 spoilt = (1 / (1 - exact[FIRST_STRIDE] * off * n**2) - 1) / U
 roundings = spoilt + max(2 + 1, 14) + 1 + 2 + factor_off
 slack = lambda more: (1 + more) * (1 - U) ** (int(roundings) + 1) >= 1
 more = constant("SLACK") - 1
-require(slack(more) and not slack(more / 8), "SLACK")
-proven(f"SLACK has {float(more / U):g} roundings of 2^-24: samples off their points make a bound too small by {float(spoilt):.1f}, and what rounds it by {float(roundings - spoilt):g}")
+proven(f"SLACK has {float(more / U):g} roundings of 2^-24: samples off their points make a bound too small by "
+       f"{float(spoilt):.1f}, and what rounds it by {float(roundings - spoilt):g}",
+       slack(more) and not slack(more / 8))
 
-# --- What samples lose in integers: a coefficient less than a unit as it is cut, and so each product as it is rounded down; |s| is at
-# most 1, so nothing that is lost grows.
+# --- What samples lose in integers: a coefficient less than a unit as it is cut, and so each product as it is rounded
+# down; |s| is at most 1, so nothing that is lost grows.
 a, b = Ints("a b")
 require_valid("the product by words", (a * 2**32 + b) / 2**30 == 4 * a + b / 2**30)
 lost = Fraction(4 + 3, 2 ** constant("TIME_BITS"))
 position, allowed = Fraction(1, 2) + Fraction(7 + 6, 2 ** constant("POSITION_BITS")), Fraction("0.5002")
-require(constant("SAMPLE_OFF") == lost and position <= allowed < Fraction(1001, 2000), "samples")
-require(7 * (2**60 + 1) < 2**63 and ONE == 2**30, "no value beyond its words")
-proven(f"samples in integers: a time is off by at most SAMPLE_OFF = 2^{log2(lost):.2f} steps, a position by 1/2 and 2^{log2(position - Fraction(1, 2)):.1f}; none is beyond 63 bits")
-# A weight by Horner's rule, for each coefficient: products, sums, and the place, rounded, in each product; and its own rounding.
+proven(f"samples in integers: a time is off by at most SAMPLE_OFF = 2^{log2(lost):.2f} steps, a position by 1/2 and "
+       f"2^{log2(position - Fraction(1, 2)):.1f}; none is beyond 63 bits",
+       constant("SAMPLE_OFF") == lost and position <= allowed < Fraction(1001, 2000),
+       7 * (2**60 + 1) < 2**63 and ONE == 2**30)
+# A weight by Horner's rule, for each coefficient: products, sums, and the place, rounded, in each product; and its own.
 HORNER = [2 * k + min(k + 1, 3) for k in range(4)]
 weight_off = (exact[FIRST_STRIDE] * max(HORNER) + 1) * Fraction(1001, 1000) * U
-require(weight_off <= constant("WEIGHT_OFF") < 8 * weight_off, "WEIGHT_OFF")
-proven(f"what rounds the openness at a sample is at most {float(weight_off / U):.1f} roundings of its coefficients without signs, in a bound: within WEIGHT_OFF")
+proven(f"what rounds the openness at a sample is at most {float(weight_off / U):.1f} roundings of its coefficients "
+       "without signs, in a bound: within WEIGHT_OFF",
+       weight_off <= constant("WEIGHT_OFF") < 8 * weight_off)
 
 # --- What a fraction and a time may be off by, with 60 and 9 roundings of an f64, as many as were counted.
 join_off, fraction_off, time_off = (constant(f"{name}_OFF") for name in ("JOIN", "FRACTION", "TIME"))
-require(MASS_TERMS * 60 * U64 <= fraction_off < 8 * MASS_TERMS * 60 * U64, "FRACTION_OFF")
-require(TIME_TERMS * 9 * U64 <= time_off < 2 * TIME_TERMS * 9 * U64, "TIME_OFF")
-proven(f"60 roundings of an f64 in terms {MASS_TERMS} times as great are at most FRACTION_OFF, 9 in terms {TIME_TERMS} times as great at most TIME_OFF")
+proven(f"60 roundings of an f64 in terms {MASS_TERMS} times as great are at most FRACTION_OFF, 9 in terms "
+       f"{TIME_TERMS} times as great at most TIME_OFF",
+       MASS_TERMS * 60 * U64 <= fraction_off < 8 * MASS_TERMS * 60 * U64,
+       TIME_TERMS * 9 * U64 <= time_off < 2 * TIME_TERMS * 9 * U64)
 least, ulp_error = constant("LEAST_TOP") / 2, constant("ULP_ERROR")
-require(all(ulp_error * begin / 2**23 > Fraction(3, 2) * (join_off + fraction_off * 2 * begin) for begin in (least * 2**i for i in range(30))), "ULP_ERROR less off")
-proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a fraction may be off by, for each octave")
-# Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves (pairs.py),
-# and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53.
+is_less = lambda begin: ulp_error * begin / 2**23 > Fraction(3, 2) * (join_off + fraction_off * 2 * begin)
+proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a fraction may be off by, for each octave",
+       all(is_less(least * 2**i) for i in range(30)))
+# Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of
+# themselves (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53.
 PAIR = Fraction(1, 2**49)
 
 
@@ -98,9 +106,10 @@ def joins_hold(join_off, fraction_off, least_part=True):
     return part <= fraction_off and part * half + U64 / 2 <= join_off + fraction_off * half
 
 
-require(joins_hold(join_off, fraction_off) and not joins_hold(join_off, PAIR) and not joins_hold(join_off, fraction_off, False), "joins")
-require(join_off == U64 / 2, "JOIN_OFF")
-proven("what rounds joins, given the ramps' masses, is within JOIN_OFF and FRACTION_OFF of itself, as each is told by the lesser part; by 1 less a share of nearly all it would not be")
+proven("what rounds joins, given the ramps' masses, is within JOIN_OFF and FRACTION_OFF of itself, as each is told by "
+       "the lesser part; by 1 less a share of nearly all it would not be",
+       joins_hold(join_off, fraction_off) and not joins_hold(join_off, PAIR),
+       not joins_hold(join_off, fraction_off, False) and join_off == U64 / 2)
 
 # --- How far a stretch goes in which so much time passes.
 t1, t2, t3, s, start, d = Reals("t1 t2 t3 s start d")
@@ -109,22 +118,25 @@ size, inside = If(t2 < 0, -t2, t2), And(s >= -1, s <= 1)
 vertex, at_end = And(inside, 3 * t3 > size), t1 + 3 * t3 - 2 * size
 # Written without a quotient: thrice (t1 - t2^2 / thrice) = thrice t1 - t2^2.
 vertex_bound = lambda part: Implies(vertex, 3 * t3 * parabola(s) >= 3 * t3 * t1 - t2 * t2 * part)
-valid("slowest is at most the least t' on [-1, 1], where the vertex may be inside", vertex_bound(1), vertex_bound(Q(99, 100)))
+claim = "slowest is at most the least t' on [-1, 1], where the vertex may be inside"
+valid(claim, vertex_bound(1), vertex_bound(Q(99, 100)))
 end_bound = lambda most, more: Implies(And(inside, most * t3 <= size), parabola(s) >= at_end + more)
 valid("and where it is not", end_bound(3, 0), end_bound(3, size / 100), end_bound(2, 0))
 # From `start` to start + d the time is d t'(m) + t3 d^3 / 4 about the middle m, and t'(m) is not negative.
-m = start + d / 2
-end = start + d
+m, end = start + d / 2, start + d
 passed = t1 * d + t2 * (end * end - start * start) + t3 * (end * end * end - start * start * start)
-require(simplify(passed - (d * parabola(m) + t3 * d * d * d / 4), som=True).eq(RealVal(0)), "the time about the middle")
-takes = lambda q: Implies(And(d > 0, d <= 2, parabola(m) >= 0), q * (d * parabola(m) + t3 * d * d * d / 4) >= t3 * d * d * d)
-valid("a stretch of length d takes at least t3 d^3 / 4, as t' is not negative in its middle", takes(4), takes(Q(399, 100)))
-require(8 * U * Fraction(1001, 1000) < Fraction(1, 2**20) < 32 * U, "slowest's rounding")
-proven("slowest: its 8 roundings of 2^-24, each of at most all terms, are below the 2^-20 that are taken from it")
+about = d * parabola(m) + t3 * d * d * d / 4
+require(simplify(passed - about, som=True).eq(RealVal(0)), "the time about the middle")
+takes = lambda q: Implies(And(d > 0, d <= 2, parabola(m) >= 0), q * about >= t3 * d * d * d)
+claim = "a stretch of length d takes at least t3 d^3 / 4, as t' is not negative in its middle"
+valid(claim, takes(4), takes(Q(399, 100)))
+proven("slowest: its 8 roundings of 2^-24, each of at most all terms, are below the 2^-20 that are taken from it",
+       8 * U * Fraction(1001, 1000) < Fraction(1, 2**20) < 32 * U)
 
-# --- A way that leaves the ramp by its join, where the stretch does not reach that, has to collect what the stretch has more than the
-# part: 4 ulp, EPSILON of the power of two, of which the ends, the middle and its sum with the half lose a half each by rounding, the half
-# next to nothing, and `off` as much as is below.
+# --- A way that leaves the ramp by its join, where the stretch does not reach that, has to collect what the stretch has
+# more than the part: 4 ulp, EPSILON of the power of two, of which the ends, the middle and its sum with the half lose a
+# half each by rounding, the half next to nothing, and `off` as much as is below.
 more = 4 - Fraction(3, 2) - 4 * U - (join_off / (2 * least) + 2 * fraction_off) * 2**23
-require(more > 4 * ulp_error, f"{float(more)} ulp")
-proven(f"is_joined wherever a way may leave the ramp by its join: else it would collect {float(more):.2f} ulp until the stretch ends, and {float(ulp_error)} are allowed")
+proven(f"is_joined wherever a way may leave the ramp by its join: else it would collect {float(more):.2f} ulp until "
+       f"the stretch ends, and {float(ulp_error)} are allowed",
+       more > 4 * ulp_error)

@@ -65,16 +65,25 @@ def hash_of(file, name):
     return found and hashlib.sha256(bare(found).encode()).hexdigest()[:8]
 
 
+def pins(table):
+    """Of a table of files, each before names with their hashes."""
+    words = iter(table.split())
+    for word in words:
+        if word.endswith(".rs"):
+            file = word
+        else:
+            yield file, word, next(words)
+
+
 def pinned(table):
-    """Stops unless each item reads as when its transcription was made. A line of the table: a file, then names and hashes."""
-    for line in table.strip().splitlines():
-        file, *rest = line.split()
-        for name, pin in zip(rest[::2], rest[1::2]):
-            found = hash_of(file, name)
-            if found is None:
-                sys.exit(f"src/{file} has not one {name}: name it anew in proofs/{SCRIPT}.py")
-            if found != pin:
-                sys.exit(f"src/{file}: {name} has changed: compare the transcription in proofs/{SCRIPT}.py with it, then pin {found}")
+    """Stops unless each item reads as when its transcription was made."""
+    for file, name, pin in pins(table):
+        found = hash_of(file, name)
+        if found is None:
+            sys.exit(f"src/{file} has not one {name}: name it anew in proofs/{SCRIPT}.py")
+        if found != pin:
+            compare = f"compare the transcription in proofs/{SCRIPT}.py with it, then pin {found}"
+            sys.exit(f"src/{file}: {name} has changed: {compare}")
 
 
 CONSTANTS = {}
@@ -89,7 +98,8 @@ def constant(name):
     if len(values) != 1:
         sys.exit(f"src/ has {len(values)} constants {name}, not 1")
     text = re.sub(r" as \w+|\.to_bits\(\)|(?<=\d)_(?=\d)|(?<=\d)[iu]\d\d\b", "", values[0])
-    text = re.sub(r"power_of_two(_f64)?\(", "power(", re.sub(r"\d+\.\d*", lambda n: f"Fraction('{n[0].rstrip('.')}')", text))
+    text = re.sub(r"\d+\.\d*", lambda n: f"Fraction('{n[0].rstrip('.')}')", text)
+    text = re.sub(r"power_of_two(_f64)?\(", "power(", text)
     text = re.sub(r"\b[A-Z][A-Z_0-9]+\b", lambda n: f"({constant(n[0])})" if n[0] in CONSTANTS else n[0], text)
     value = eval(text, {"Fraction": Fraction, "power": lambda n: Fraction(2) ** n})
     return int(value) if value == int(value) else Fraction(value)
@@ -103,9 +113,11 @@ def exactly(number):
 started = time.monotonic()
 
 
-def proven(claim):
-    """Prints a claim that has just been checked, with the time since the last one."""
+def proven(claim, *held):
+    """Prints a claim, if all of this holds, with the time since the last one."""
     global started
+    for i, holds in enumerate(held):
+        require(holds, f"{claim} ({i + 1} of {len(held)} conditions)")
     now = time.monotonic()
     print(f"proven {now - started:7.2f} s  {SCRIPT}: {claim}\n", end="", flush=True)
     started = now

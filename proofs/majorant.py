@@ -1,8 +1,8 @@
 """Bounds of rounding errors by exact rational arithmetic, for polynomials whose numbers have any size and sign.
 
-A bound is a sum of terms |c_j| |x|^a |s|^b, each with a rational number before it: a dictionary from (j, a, b). A computed
-number is a `Number`: what bounds its size, and what bounds its error. Each operation rounds by at most 2^-24 of its answer;
-nothing overflows or is subnormal.
+A bound is a sum of terms |c_j| |x|^a |s|^b, each with a rational number before it: a dictionary from (j, a, b). A
+computed number is a `Number`: what bounds its size, and its error. Each operation rounds by at most 2^-24 of its
+answer; nothing overflows or is subnormal.
 """
 
 from math import comb

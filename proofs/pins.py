@@ -5,15 +5,10 @@ from common import *
 for path in sorted(HERE.glob("*.py")):
     text = path.read_text()
     for table in re.findall(r'pinned\("""\n(.*?)"""\)', text, re.S):
-        fresh = []
-        for line in table.splitlines():
-            file, *rest = line.split()
-            for i in range(0, len(rest), 2):
-                found = hash_of(file, rest[i])
-                if found != rest[i + 1]:
-                    print(f"{path.name}: src/{file} {rest[i]} {rest[i + 1]} -> {found}")
-                    rest[i + 1] = found or rest[i + 1]
-            fresh.append(" ".join([file, *rest]) + "\n")
-        text = text.replace(table, "".join(fresh))
+        for file, name, pin in pins(table):
+            found = hash_of(file, name)
+            if found != pin:
+                print(f"{path.name}: src/{file} {name} {pin} -> {found}")
+                text = text.replace(f" {name} {pin}", f" {name} {found or pin}")
     if sys.argv[1:] == ["--write"]:
         path.write_text(text)

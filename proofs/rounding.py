@@ -1,8 +1,8 @@
 """That `rounded_sum` and `rounded_small_sum` round once. By all values of short numbers.
 
-What decides is where the rest of a sum lies relative to the middles next to the sum, and that depends on the number of bits
-only through how far the words reach below those middles. So numbers of a few bits have every case that those of 24 have, as
-long as a rest of some ulp still has bits below a quarter of an ulp.
+What decides is where the rest of a sum lies relative to the middles next to the sum, and that depends on the number of
+bits only through how far the words reach below those middles. So numbers of a few bits have every case that those of 24
+have, as long as a rest of some ulp still has bits below a quarter of an ulp.
 """
 
 from common import *
@@ -34,10 +34,11 @@ def numbers(p, exponents):
 
 
 def operands(p, halves):
-    """The unit of a pair's first numbers, bases, and second numbers of at most so many half ulps, which are 2^(unit - 1)."""
+    """The unit of a pair's first numbers, bases, and second numbers of at most so many half ulps, which are 2^(unit - "
+    "1)."""
     unit = 2 * p + 1
-    los = numbers(p, range(0, unit + 1))
-    return unit, np.append(numbers(p, range(unit - p - 1, unit + p + 2)), 0), np.append(los[np.abs(los) <= halves << (unit - 1)], 0)
+    bases, los = numbers(p, range(unit - p - 1, unit + p + 2)), numbers(p, range(0, unit + 1))
+    return unit, np.append(bases, 0), np.append(los[np.abs(los) <= halves << (unit - 1)], 0)
 
 
 def wrong(p, halves):
@@ -54,8 +55,9 @@ def wrong(p, halves):
 
 
 # A rest of four ulp needs a bit more below a quarter of an ulp.
-require(all(wrong(p, halves) == 0 for p, halves in ((5, 1), (6, 4), (7, 8))) and wrong(6, 8) > 0, "rounded_sum")
-proven("rounded_sum rounds once, where nothing is subnormal: for all sums of 6 bits with second numbers up to two ulp, of 7 up to four")
+proven("rounded_sum rounds once, where nothing is subnormal: for all sums of 6 bits with second numbers up to two "
+       "ulp, of 7 up to four",
+       all(wrong(p, halves) == 0 for p, halves in ((5, 1), (6, 4), (7, 8))) and wrong(6, 8) > 0)
 
 
 def to_place(v, place):
@@ -66,7 +68,7 @@ def to_place(v, place):
 
 
 def wrong_below(p, halves, by_all=True):
-    """How many sums are not rounded once by `rounded_small_sum` where they may be subnormal: multiples of some place, below 2^(p-1) of it.
+    """How many sums are not rounded once by `rounded_small_sum` where they may be subnormal: below 2^(p-1) of a place.
 
     A base is a multiple of that place, as every number is; the pair, in a finer unit, need not be.
     """
@@ -90,9 +92,11 @@ def wrong_below(p, halves, by_all=True):
     return found
 
 
-require(wrong_below(5, 1) == 0 and wrong_below(6, 2) == 0, "rounded_small_sum")
-require(wrong_below(5, 1, by_all=False) > 0, "the sign by the first number alone would do")
-proven("rounded_small_sum rounds once where a sum is subnormal, too: for all of 5 bits with second numbers up to half an ulp, of 6 up to an ulp")
+proven("rounded_small_sum rounds once where a sum is subnormal, too: for all of 5 bits with second numbers up to half "
+       "an ulp, of 6 up to an ulp",
+       wrong_below(5, 1) == 0 and wrong_below(6, 2) == 0,
+       # The sign by the first number alone would not do.
+       wrong_below(5, 1, by_all=False) > 0)
 
 
 # Is the rounding to odd needed, and seen to be?

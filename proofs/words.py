@@ -30,8 +30,8 @@ def line(first):
 
 valid("in_line_units: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
 
-# The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even numbers.
-# So an odd number may stand for all that lies between its even neighbours.
+# The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even
+# numbers. So an odd number may stand for all that lies between its even neighbours.
 LEAST_BITS = 25
 
 time, even = BitVec("time", 64), BitVec("even", 72)
@@ -54,7 +54,8 @@ def one_word(bits):
 
 
 require(LEAST_BITS - 23 - 1 >= 1, "middles between f32 are even numbers")
-valid("inverse_cdf: one conversion of 32 bits rounds a time of 64 as the exact time rounds", one_word(LEAST_BITS), one_word(LEAST_BITS + 1))
+claim = "inverse_cdf: one conversion of 32 bits rounds a time of 64 as the exact time rounds"
+valid(claim, one_word(LEAST_BITS), one_word(LEAST_BITS + 1))
 
 
 def carefully(is_word, up, least=1 << 30):
@@ -76,25 +77,26 @@ def carefully(is_word, up, least=1 << 30):
 for is_word in (True, False):
     for up in range(32):
         require_valid(f"rounded_near_0, moved up by {up}", carefully(is_word, up))
-valid(
-    "rounded_near_0: the word is full, and rounds as the exact time rounds; for every time but 0",
-    carefully(True, 3), carefully(True, 3, (1 << 30) + 1),
-)
+valid("rounded_near_0: the word is full, and rounds as the exact time rounds; for every time but 0",
+      carefully(True, 3), carefully(True, 3, (1 << 30) + 1))
 
 # Bits of f32.
 x = BitVec("x", 32)
 significand = (x & 0x7FFFFF) | (1 << 23)
 high = significand & 0xFFFFF000
 is_normal = And(LShR(x << 1, 24) != 0, LShR(x << 1, 24) != 255)
-halves = lambda most: And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULE(significand - high, most), ULT(LShR(high, 12), 1 << 12))
-valid("upper: both halves of a normal number have at most 12 bits, so products of halves are exact", *(Implies(is_normal, halves(most)) for most in (4095, 4094)))
+is_upper = And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULT(LShR(high, 12), 1 << 12))
+halves = lambda most: Implies(is_normal, And(is_upper, ULE(significand - high, most)))
+claim = "upper: both halves of a normal number have at most 12 bits, so products of halves are exact"
+valid(claim, halves(4095), halves(4094))
 
-# `exponent`, `fixed_down` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
-# with the bits of a significand is the same for all: a shift.
+# `exponent`, `fixed_down` and `floor_bits` by exact rationals, for every exponent and the significands at the edges.
+# What they do with the bits of a significand is the same for all: a shift.
 up, sig = BitVec("up", 64), BitVec("sig", 64)
 # A number below 2^63 units: |sig| 2^up < 2^63, so up is at most 62 where sig is not 0.
 size = If(sig < 0, -sig, sig)
-fits = And(up <= 62, up >= -400, sig > -(1 << 24), sig < 1 << 24, Implies(up >= 0, LShR(BitVecVal(2**63 - 1, 64), up) >= size))
+is_below = Implies(up >= 0, LShR(BitVecVal(2**63 - 1, 64), up) >= size)
+fits = And(up <= 62, up >= -400, sig > -(1 << 24), sig < 1 << 24, is_below)
 
 
 def whole(most_down):
@@ -111,17 +113,19 @@ units = If(up >= 0, sig << (up & 63), If(up > -64, sig >> (-up & 63), BitVecVal(
 down = If(-up > 63, BitVecVal(63, 64), -up)
 floor = And(units << down <= sig, ULT(sig - (units << down), BitVecVal(1, 64) << down))
 towards_0 = lambda floor: Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor))
-valid("fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0", towards_0(floor), towards_0(units << down == sig))
-# `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one below
-# has one less, also across a power of two.
+claim = "fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0"
+valid(claim, towards_0(floor), towards_0(units << down == sig))
+# `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one
+# below has one less, also across a power of two.
 y = FP("y", Float64())
 rounded = fpFPToFP(RNE(), y, Float32())
+double = lambda single: fpFPToFP(RNE(), single, Float64())
 below = fpBVToFP(fpToIEEEBV(rounded) - 1, Float32())
 inside = And(fpIsPositive(y), fpLEQ(y, FPVal(2, Float64())))
-is_above = fpGT(fpFPToFP(RNE(), rounded, Float64()), y)
+is_above = fpGT(double(rounded), y)
 answer = If(is_above, below, rounded)
 next_one = fpBVToFP(fpToIEEEBV(answer) + 1, Float32())
-is_last = lambda order: Implies(inside, And(order(fpFPToFP(RNE(), answer, Float64()), y), fpGT(fpFPToFP(RNE(), next_one, Float64()), y)))
+is_last = lambda order: Implies(inside, And(order(double(answer), y), fpGT(double(next_one), y)))
 valid("floor_bits: the greatest f32 at or below, for every double from 0 (not -0) to 2", is_last(fpLEQ), is_last(fpEQ))
 
 # `significand` cuts a double's 53 bits: 24 and 24 more.
@@ -131,4 +135,6 @@ hi = (LShR(double, 29) & 0x7FFFFF) | (1 << 23)
 lo = LShR(double, 5) & 0xFFFFFF
 lost = exact - ((hi << 29) + (lo << 5))
 cut = lambda most: And(lost >= 0, lost <= most, ULT(lo, 1 << 24))
-valid("significand: 48 bits of the double, cut, so that less than 2^-47 is lost; the second number is below an ulp of the first", cut(31), cut(30))
+valid("significand: 48 bits of the double, cut, so that less than 2^-47 is lost; the second number is below an ulp of "
+      "the first",
+      cut(31), cut(30))

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# What the crate costs on microcontrollers: cycles, instructions and bytes, beside other methods.
+# What the crate costs on microcontrollers: cycles, instructions and bytes.
 #
-#   benches/cortex-m/run.sh                a Cortex-M4F and a Cortex-M0+; ends with the short table
-#   benches/cortex-m/run.sh --write-docs   five processors, in docs/internals/cost.md; on a machine that does nothing else
+#   benches/cortex-m/run.sh                a Cortex-M4F and a Cortex-M0+, each figure beside its budget
+#   benches/cortex-m/run.sh --write-docs   five processors, beside other methods, in docs/internals/cost.md
 set -euo pipefail
 cd "$(dirname "$0")"
 
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/shutter-curve-thumb
 case ${1:-} in
-"") tools=../../.ci/thumb.sh time="two minutes" ;;
---write-docs) tools="../../.ci/matrix.sh all" time="ten minutes" ;;
+"") tools=../../.ci/thumb.sh time="two minutes" what=--budgets ;;
+--write-docs) tools="../../.ci/matrix.sh all" time="ten minutes" what=$1 ;;
 *) echo "usage: benches/cortex-m/run.sh [--write-docs]" >&2 && exit 2 ;;
 esac
 cat >&2 <<END
@@ -20,4 +20,4 @@ END
 # By the machine's own compiler, which is faster than the one that has the targets.
 cargo build --quiet --release
 target=${CARGO_TARGET_DIR:-target}
-TOOLS="" exec $tools "$target/release/shutter-curve-cost" "$@"
+TOOLS="" exec $tools "$target/release/shutter-curve-cost" $what

@@ -1,6 +1,6 @@
 //! The plan as an SVG: openness over time in shares of equal exposure, and below it their sum.
 
-mod drawing;
+pub mod drawing;
 mod set_ups;
 pub mod style;
 mod times;

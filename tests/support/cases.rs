@@ -1,6 +1,6 @@
 //! The hard cases: curves on which solvers are known to fail, one a reason.
 //!
-//! `tests/curve/promises.rs` judges them all; `benches/host/speed_vs_error` prints them beside the baselines.
+//! `tests/curve/promises.rs` judges them all, `benches/host` the baselines as well.
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 

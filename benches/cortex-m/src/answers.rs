@@ -4,7 +4,7 @@ use std::process::Command;
 use std::thread;
 
 use crate::Result;
-use crate::firmware::{CORES, OPT_LEVEL, build, folder, host_rustc, output, succeeded};
+use crate::firmware::{CORES, build, folder, host_rustc, output, succeeded};
 
 pub fn run() -> Result {
     // Those of `.ci/matrix.sh`, and without it all.
@@ -23,7 +23,7 @@ pub fn run() -> Result {
     thread::scope(|scope| {
         // The next is built while others run.
         let cores = CORES.into_iter().filter(|core| is_set_up(core.target)).map(|core| {
-            let program = build(core, "answers", OPT_LEVEL)?;
+            let program = build(core, "answers")?;
             Ok((core, scope.spawn(move || output(core, &program))))
         });
         for (core, run) in cores.collect::<Result<Vec<_>>>()? {

@@ -17,18 +17,18 @@ pub struct Instruction {
     pub operands: String,
 }
 
-pub struct Function {
-    pub symbol: String,
-    pub size: u32,
+struct Function {
+    symbol: String,
+    size: u32,
     /// What its prologue takes of the stack, as the compiler says.
-    pub stack: Option<u32>,
+    stack: Option<u32>,
 }
 
 pub struct Disassembly {
     /// In the order of their addresses.
     pub instructions: Vec<Instruction>,
     /// By their first address.
-    pub functions: BTreeMap<u32, Function>,
+    functions: BTreeMap<u32, Function>,
     /// The bytes of `.data` and `.bss`.
     pub statics: u64,
 }
@@ -39,15 +39,13 @@ impl Disassembly {
         let file = object::File::parse(&*bytes)?;
         let mut functions = BTreeMap::new();
         for symbol in file.symbols().filter(|s| s.kind() == SymbolKind::Text && s.size() > 0) {
-            let (name, size) = (symbol.name()?.to_owned(), symbol.size() as u32);
-            let function = Function { symbol: name, size, stack: None };
+            let function = Function { symbol: symbol.name()?.into(), size: symbol.size() as u32, stack: None };
             functions.insert(symbol.address() as u32 & !1, function);
         }
         // Pairs of an address and a size.
         let mut sizes = Bytes(file.section_by_name(".stack_sizes").map_or(Ok(&[][..]), |s| s.data())?);
         while let (Ok(address), Ok(size)) = (sizes.read::<U32<LittleEndian>>(), sizes.read_uleb128()) {
-            let function = functions.get_mut(&(address.get(LittleEndian) & !1));
-            if let Some(function) = function {
+            if let Some(function) = functions.get_mut(&(address.get(LittleEndian) & !1)) {
                 function.stack = Some(size as u32);
             }
         }
@@ -78,8 +76,7 @@ impl Disassembly {
     pub fn named(&self, name: &str) -> Vec<u32> {
         // As both of Rust's manglings have it.
         let part = format!("{}{name}", name.len());
-        let named = self.functions.iter().filter(|(_, function)| function.symbol.contains(&part));
-        named.map(|(address, _)| *address).collect()
+        self.functions.iter().filter(|(_, f)| f.symbol.contains(&part)).map(|(address, _)| *address).collect()
     }
 
     fn in_function(&self, start: u32) -> &[Instruction] {
@@ -97,20 +94,15 @@ impl Disassembly {
         starts.map(|(start, _)| *start).filter(|start| *start != function).collect()
     }
 
-    /// A function and all that it reaches.
-    fn reach(&self, function: u32) -> BTreeSet<u32> {
+    /// The code and literals of a function and all that it reaches, in bytes.
+    pub fn code_bytes(&self, function: u32) -> u32 {
         let (mut reached, mut open) = (BTreeSet::new(), vec![function]);
         while let Some(function) = open.pop() {
             if reached.insert(function) {
                 open.extend(self.branches(function, |_| true));
             }
         }
-        reached
-    }
-
-    /// The code and literals of a function and all that it reaches, in bytes.
-    pub fn code_bytes(&self, function: u32) -> u32 {
-        self.reach(function).iter().map(|start| self.functions[start].size).sum()
+        reached.iter().map(|start| self.functions[start].size).sum()
     }
 
     /// The deepest stack of a function and what it calls, by the compiler's figures and, for what came

@@ -67,28 +67,23 @@ program.exports._start();
 ";
 
 /// The level at which what is measured is optimised, as the compiler takes it.
-pub const OPT_LEVEL: &str = "3";
+const OPT_LEVEL: &str = "3";
 
 /// The nested workspace.
 pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds a program.
-pub fn build(core: Core, program: &str, level: &str) -> Result<PathBuf> {
-    if !cargo(core, program, level).status()?.success() {
+/// Builds a program, and says where it is.
+pub fn build(core: Core, program: &str) -> Result<PathBuf> {
+    if !cargo(core, program, OPT_LEVEL).status()?.success() {
         let target = core.target;
         let help = format!("`rustup target add {target}`, or run this by .ci/matrix.sh");
         return Err(format!("cannot build {program} for {target}; {help}").into());
     }
-    Ok(self::program(core, program))
-}
-
-/// Where a program is that has been built.
-pub fn program(core: Core, program: &str) -> PathBuf {
     let suffix = if core.runs_in == Node { ".wasm" } else { "" };
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| folder().join("target"), PathBuf::from);
-    target.join(core.target).join("release").join(format!("{program}{suffix}"))
+    Ok(target.join(core.target).join("release").join(format!("{program}{suffix}")))
 }
 
 /// The machine's own compiler, where `.ci/thumb.sh` has brought another.
@@ -138,7 +133,7 @@ pub fn made_with() -> Result<String> {
         Ok::<_, crate::Error>(String::from_utf8_lossy(&text).lines().next().unwrap_or("").to_owned())
     };
     let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
-    Ok(format!("{}, opt-level {OPT_LEVEL}; {}", version(&rustc)?, version(QEMU)?))
+    Ok(format!("{}, opt-level {OPT_LEVEL};\n{}", version(&rustc)?, version(QEMU)?))
 }
 
 /// What a program gave; or why it did not start, or why it failed.

@@ -5,11 +5,11 @@
 
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use crate::Result;
-use crate::disassembly::Disassembly;
+use crate::disassembly::{Disassembly, Instruction};
 use crate::firmware::{Core, start};
 use crate::model::{Cost, Fetch};
 
@@ -23,9 +23,9 @@ pub struct Call {
     pub cycles: u32,
 }
 
-/// Runs a program and tells of each call of its functions `the_call`, in order, and what it printed.
-pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: Option<File>) -> Result<(Vec<Call>, String)> {
-    let mut child = start(core, elf, input, &["-d", "in_asm,exec,nochain"])?;
+/// Runs a program and tells of each call of its functions `the_call`, in order.
+pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: File) -> Result<Vec<Call>> {
+    let mut child = start(core, elf, Some(input), &["-d", "in_asm,exec,nochain"])?;
     let steps = steps(code);
     let mut replay = Replay::default();
     // The instructions of each block, by QEMU's number for it; and of the one just translated.
@@ -36,47 +36,36 @@ pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: Option<File>) -
     let mut other = String::new();
     let mut reader = BufReader::with_capacity(1 << 16, child.stderr.take().ok_or("no stderr")?);
     let mut line = Vec::new();
-    loop {
-        line.clear();
-        let is_over = reader.read_until(b'\n', &mut line)? == 0;
+    while reader.read_until(b'\n', &mut line)? > 0 {
         let text = std::str::from_utf8(&line).unwrap_or("");
         if text.starts_with("Stopped execution") {
             block = None;
-            continue;
-        }
-        let next = block_number(text);
-        if is_over || next.is_some() {
-            for step in block.iter().flat_map(|block| &blocks[block]) {
-                replay.execute(*step);
-            }
-            block = next;
-        }
-        if is_over {
-            break;
-        }
-        if let Some(number) = next {
+        } else if let Some(number) = block_number(text) {
+            replay.execute(block.iter().flat_map(|block| &blocks[block]));
             if !translated.is_empty() {
                 blocks.insert(number, std::mem::take(&mut translated));
             }
             if !blocks.contains_key(&number) {
                 return Err(format!("QEMU does not tell a block's instructions: {text}").into());
             }
+            block = Some(number);
         } else if let Some(address) = instruction_address(text) {
-            let step = steps.get(&address);
-            let unknown = "QEMU executes what the disassembly does not have";
-            translated.push(*step.ok_or_else(|| format!("{unknown}: {text}"))?);
+            let unknown = || format!("QEMU executes what the disassembly does not have: {text}");
+            translated.push(*steps.get(&address).ok_or_else(unknown)?);
         } else if text.starts_with("IN:") {
             translated.clear();
         } else if !text.starts_with("---") {
             other.push_str(text);
         }
+        line.clear();
     }
-    let mut printed = String::new();
-    child.stdout.take().map(|mut out| out.read_to_string(&mut printed));
-    if !child.wait()?.success() {
+    replay.execute(block.iter().flat_map(|block| &blocks[block]));
+    let output = child.wait_with_output()?;
+    if !output.status.success() {
+        let printed = String::from_utf8_lossy(&output.stdout);
         return Err(format!("the firmware stopped early\n{}{printed}", other.trim()).into());
     }
-    Ok((replay.calls, printed))
+    Ok(replay.calls)
 }
 
 /// An instruction as the replay needs it.
@@ -92,11 +81,11 @@ struct Step {
 /// The instructions by their addresses.
 fn steps(code: &Disassembly) -> HashMap<u32, Step> {
     let begin = code.named("the_call");
-    let steps = code.instructions.iter().map(|i| {
+    let step = |i: &Instruction| {
         let begins = begin.contains(&i.address);
         (i.address, Step { address: i.address, length: i.length, cost: Cost::new(i), begins })
-    });
-    steps.collect()
+    };
+    code.instructions.iter().map(step).collect()
 }
 
 /// The state of a replay.
@@ -112,8 +101,12 @@ struct Replay {
 }
 
 impl Replay {
+    fn execute<'a>(&mut self, steps: impl Iterator<Item = &'a Step>) {
+        steps.for_each(|step| self.step(*step));
+    }
+
     /// The instruction follows: charges the last one, then sees whether a call ends or starts.
-    fn execute(&mut self, step: Step) {
+    fn step(&mut self, step: Step) {
         let last = std::mem::replace(&mut self.last, step);
         if let Some((call, back)) = &mut self.call {
             let mut cycles = last.cost.behind(&self.before);

@@ -1,4 +1,4 @@
-//! Speed against error: a report and its pictures, from one run.
+//! Speed against error: a report and its picture, from one run.
 //!
 //! `cargo bench -p benches` leaves rough figures in `target/speed-vs-error`, after seconds. With `-- --write-docs` it
 //! takes minutes, on a machine that does nothing else, and writes `docs/internals/speed-vs-error.md`. `--search N`
@@ -9,18 +9,13 @@ mod accuracy;
 mod every_f32;
 mod follower;
 mod methods;
-mod pictures;
+mod picture;
 mod report;
 mod search;
 #[path = "../../../tests/support/mod.rs"]
 mod support;
-mod sweep;
-mod sweep_t;
-mod sweep_u;
-mod table;
 mod timing;
 
-use methods::CURVES;
 use report::Measured;
 
 /// Where documents are; what other runs left is read from there.
@@ -56,17 +51,20 @@ fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
         curves: curves.len(),
         samples,
         figures: accuracy::measure(&curves, samples),
-        times: CURVES.map(|(_, curve)| timing::times(&curve, repeats)),
+        times: timing::times(repeats),
         cost: std::fs::read_to_string(format!("{DOCS}/cost.md"))?,
-        search: table::read(&format!("{DOCS}/{SEARCH}"))?,
-        every_f32: table::read(&format!("{DOCS}/{EVERY_F32}"))?,
+        search: read(SEARCH)?,
+        every_f32: read(EVERY_F32)?,
     };
-    pictures::frontier(&format!("{folder}/frontier.svg"), &measured);
-    pictures::worst_cases(&format!("{folder}/worst-cases.svg"), 15 * random);
+    picture::frontier(&format!("{folder}/frontier.svg"), &measured)?;
     let report = format!("{folder}/speed-vs-error.md");
     std::fs::write(&report, report::write(&measured))?;
-    println!("{}\nwrote {report} and its pictures", report::ratios(&measured));
+    println!("wrote {report} and its picture");
     Ok(())
+}
+
+fn read<T: serde::de::DeserializeOwned>(name: &str) -> Result<Vec<T>> {
+    Ok(csv::Reader::from_path(format!("{DOCS}/{name}"))?.into_deserialize().collect::<Result<_, _>>()?)
 }
 
 fn save<T: serde::Serialize>(folder: &str, name: &str, rows: &[T]) -> Result {

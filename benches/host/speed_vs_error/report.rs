@@ -1,80 +1,78 @@
 //! The report's text.
 
-use rayon::prelude::*;
+use crate::accuracy::{Figures, of_hard_curves, of_triggers};
+use crate::every_f32::Sweep;
+use crate::methods::{CURVES, METHODS, Method};
+use crate::search::Find;
 
-use crate::accuracy::{Figures, breaking_us, judge_on, mended, of_triggers};
-use crate::methods::Method::{Nearer, Textbook};
-use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
-use crate::support::aimed::{FAMILIES, aimed, aimed_us};
-use crate::support::cases::{CASES, shutter};
-use crate::support::curves::Rng;
-use crate::support::oracle::{Curve, Exact};
-use crate::table::{Row, number, shown, table};
+/// How many hard curves the methods are tried on.
+const HARD: usize = 9000;
 
-/// The curves of each family of `aimed`.
-const AIMED: u64 = 1000;
-
-/// Everything measured.
+/// Everything measured; of the methods in their order.
 pub struct Measured {
     pub curves: usize,
     pub samples: usize,
     pub figures: Vec<Figures>,
-    /// By curve.
-    pub times: [Vec<Option<f64>>; CURVES.len()],
+    pub times: Vec<f64>,
     /// The text of `docs/internals/cost.md`.
     pub cost: String,
-    pub search: Vec<Row>,
-    pub every_f32: Vec<Row>,
+    pub search: Vec<Find>,
+    pub every_f32: Vec<Sweep>,
 }
 
 pub fn write(measured: &Measured) -> String {
-    let sections = [methods(measured), hard_cases(), search(measured), every_f32(measured)];
+    let sections = [methods(measured), search(&measured.search), every_f32(&measured.every_f32)];
     sections.join("\n\n") + "\n"
 }
 
-/// The times of this crate's methods on *soft* and *all ramp*, as shares of the careful Newton's.
-pub fn ratios(measured: &Measured) -> String {
-    let rows = METHODS.iter().filter(|method| method.is_ours()).map(|method| {
-        let shares = measured.times[..2].iter().map(|times| {
-            let share = time(times, *method).zip(time(times, Nearer)).map(|(own, one)| own / one);
-            share.map_or_else(|| "-".into(), |share| format!("{share:.2}"))
-        });
-        [method.name().into()].into_iter().chain(shares).collect()
-    });
-    table(&format!("| {} | {}", CURVES[0].0, CURVES[1].0), 1, rows)
-}
-
-/// A method's time among those of all.
-pub fn time(times: &[Option<f64>], method: Method) -> Option<f64> {
-    times[METHODS.iter().position(|one| *one == method)?]
-}
-
-/// A method's mean cycles on a curve, where `docs/internals/cost.md` has them.
-pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<f64> {
+/// A method's mean cycles, where `docs/internals/cost.md` has them.
+pub fn cycles(measured: &Measured, method: &Method) -> Option<f64> {
     let mut rows = measured.cost.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
     let head = rows.by_ref().find(|row| row[0] == "| call")?;
-    let column = head.iter().position(|name| *name == CURVES[curve].0)?;
-    let call = format!("| {}", method.cost());
+    let column = head.iter().position(|name| *name == CURVES[method.curve()][0])?;
+    let call = format!("| {}", method.cost);
     rows.find(|row| row[0] == call)?.get(column)?.parse().ok()
 }
 
+/// A figure as one reads it.
+fn number(x: f64) -> String {
+    match x.abs() {
+        _ if !x.is_finite() => "∞".into(),
+        0.0 => "0".into(),
+        ..0.01 | 1e6.. => {
+            let text = format!("{x:.1e}");
+            let (digits, exponent) = text.split_once('e').expect("an exponent");
+            format!("{digits}·10<sup>{exponent}</sup>")
+        }
+        ..0.1 => format!("{x:.3}"),
+        ..10.0 => format!("{x:.2}"),
+        ..100.0 => format!("{x:.1}"),
+        _ => format!("{x:.0}"),
+    }
+}
+
+/// A table in Markdown, its columns' names between bars: the first of text, the others of figures.
+fn table(header: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let ruled = format!("|---|{}", "---:|".repeat(header.matches('|').count()));
+    let rows = rows.into_iter().map(|row| format!("\n| {} |", row.join(" | ")));
+    format!("| {header} |\n{ruled}{}", rows.collect::<String>())
+}
+
 fn methods(measured: &Measured) -> String {
-    let rows = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
-        let curve = if method.is_root() { TRAPEZOID } else { SOFT };
-        let time = time(&measured.times[curve], *method);
-        let time = time.map_or_else(|| "-".into(), |time| format!("{time:.1}"));
-        let errors = [figures.forward, figures.of_interval.0, figures.steps_back, figures.failures];
-        let triggers = of_triggers(*method).map_or_else(|| "-".into(), number);
-        let head = [method.name().to_owned(), time];
-        head.into_iter().chain(errors.map(number)).chain([triggers]).collect()
+    let hard = of_hard_curves(HARD);
+    let rows = METHODS.iter().enumerate().map(|(i, method)| {
+        let Figures { forward, of_interval, steps_back, .. } = measured.figures[i];
+        let triggers = of_triggers(method).map_or_else(|| "-".into(), number);
+        let time = format!("{:.1}", measured.times[i]);
+        let errors = [forward, of_interval.0, hard[i], steps_back].map(number);
+        [method.name.into(), time].into_iter().chain(errors).chain([triggers]).collect()
     });
-    let header = "method | ns | ulp(t) | of the interval | steps back | failures | a leaf's triggers";
-    let table = table(header, 1, rows);
+    let table = table("method | ns | ulp(t) | of the interval | hard curves | steps back | a leaf's triggers", rows);
     format!(
         "# Speed against error
 
-Written by `cargo bench -p benches -- --write-docs`. Times are medians from one {arch} core, over 65 536 random `u`, so that no
-branch on `u` is predicted; on another machine trust the ratios.
+Written by `cargo bench -p benches -- --write-docs`. Times are medians from one {arch} core, over 65 536 random `u`, so
+that no branch on `u` is predicted; on another machine trust the ratios.
 
 ![Error against cost](frontier.svg)
 
@@ -82,135 +80,60 @@ Full dots are the greatest error, rings the mean. [cost.md](cost.md) has the cur
 
 ## The methods
 
-The first four are this crate. *{nearer}* is what one writes without it, with care: sextics from both ends of each ramp, in
-`f32` but built in `f64`, and Newton's steps inside a bracket. *Textbook Newton* is a renderer's, from 1/2 and
-to an absolute 1e-6. The table has exact entries at equally spaced `u`. Square roots, from the nearer end, are for straight ramps
-alone. `benches/baseline.rs` has them all.
+The first three are this crate. *Newton, nearer end* is what one writes without it, with care: sextics from both ends of
+each ramp, in `f32` but built in `f64`, and Newton's steps inside a bracket. The table has exact entries at equally
+spaced `u`. Square roots, from the nearer end, are for straight ramps alone. `benches/baseline.rs` has them all.
 
 {table}
 
-Times are on *soft*, of square roots on *trapezoid*. Errors are the greatest on {curves} typical curves, by double-double arithmetic, at
-{samples} fractions each: half of them uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail.
+Times are on *soft*, of square roots on *trapezoid*. Errors are the greatest on {curves} typical curves, by
+double-double arithmetic, at {samples} fractions each: half of them uniform, a quarter towards either end by octaves,
+where tables and absolute tolerances fail; a time outside the interval counts as the nearer end, and NaN as the start.
 Square roots are judged on the {straight} straight ones.
 
 - *ulp(t)*: the forward error, as in [accuracy.md](../accuracy.md)
+- *hard curves*: error as a share of the interval, beyond the rounding of the time to an `f32`, on {HARD} curves that
+  are hard or meet difficulties exactly (`tests/support/cases.rs`, `aimed.rs`), at some 100 `u` each that are hard on
+  them
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
-- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in other columns a
-  time outside counts as the nearer end, and NaN as the start
-- *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`
-
-![Worst cases](worst-cases.svg)
-
-Each random curve's worst `u` of about 1000 that are likely to be bad. Of those that lie close together, the greatest is drawn.",
+- *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`",
         arch = std::env::consts::ARCH,
-        nearer = Nearer.name(),
         curves = measured.curves,
         samples = measured.samples,
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
 
-/// A row for each case that is hard for another method, one for the others, and one for curves that meet difficulties
-/// exactly.
-fn hard_cases() -> String {
-    let judged = |curve: &Curve, us: &[f32]| {
-        let exact = Exact::new(curve);
-        let others = [Nearer, Textbook].map(|method| {
-            let inverse = method.build(curve).expect("it serves every curve");
-            judge_on(&exact, |u| mended(curve, inverse.inverse_cdf(u)), us).of_interval
-        });
-        let ours = shutter::<8>(curve);
-        let own = judge_on(&exact, |u| ours.inverse_cdf(u), us);
-        [others[0], others[1], own.of_interval]
-    };
-    let cases = CASES.iter().map(|case| {
-        let curve = case.curve();
-        (case.name, judged(&curve, &breaking_us(&Exact::new(&curve))))
-    });
-    let (told, others): (Vec<_>, Vec<_>) =
-        cases.partition(|(_, figures)| figures[..2].iter().any(|error| *error > 0.01));
-    let row = |name: String, figures: [f64; 3]| [name].into_iter().chain(figures.map(number)).collect::<Vec<_>>();
-    let most = |all: Vec<[f64; 3]>| std::array::from_fn(|i| all.iter().map(|figures| figures[i]).fold(0.0, f64::max));
-    let name = format!("{} others, the worst of each column", others.len());
-    let others = row(name, most(others.into_iter().map(|(_, figures)| figures).collect()));
-    let aimed = (0..FAMILIES.len() as u64 * AIMED).into_par_iter().map(|i| {
-        let curve = aimed((i / AIMED) as usize, 1, i);
-        judged(&curve, &aimed_us(&Exact::new(&curve), &mut Rng::new(1, i)))
-    });
-    let aimed: Vec<_> = aimed.collect();
-    let name = format!("{} aimed curves, the worst of each column", aimed.len());
-    let aimed = row(name, most(aimed));
-    let told = told.into_iter().map(|(name, figures)| row(name.into(), figures));
-    let header = "case | Newton, nearer end | textbook Newton | this crate, 8 octaves";
-    let table = table(header, 1, told.chain([others, aimed]));
+fn search(finds: &[Find]) -> String {
+    let tried = finds.first().map_or(0, |find| find.curves);
+    let finds = finds.iter().map(|find| format!("\n- {}: {}", find.what, number(find.worst)));
     format!(
-        "## Hard cases
+        "## Found by search
 
-The greatest error over about 1000 `u` a curve, beyond the rounding of the time to an `f32` and as a share of the interval, where a
-Newton errs by more than 1 %. *Aimed* curves meet difficulties exactly (`tests/support/aimed.rs`).
-
-{table}"
+`cargo bench -p benches -- --search N` climbs from the worst of random and aimed curves by moving control points. Each
+is asked what `tests/curve/promises.rs` asks. Of {tried}, none broke a promise; the worst (`search.csv`):
+{}",
+        finds.collect::<String>()
     )
 }
 
-fn search(measured: &Measured) -> String {
-    let (bred, aimed): (Vec<_>, Vec<_>) = measured.search.iter().partition(|row| row["is_bred"] == "true");
-    let [tried, each] = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
-    let bred = bred.iter().map(|row| shown(row, "what worst").join(": "));
-    let bred = bred.collect::<Vec<_>>().join("\n- ");
-    let steps = ["steps_back", "cdf_steps_back", "tick_steps_back"];
-    let steps: f64 = steps.into_iter().map(|column| sum(&aimed, column)).sum();
-    format!(
-        "### Found by search
-
-`cargo bench -p benches -- --search N` climbs from the worst of random curves by moving control points. The worst of {tried}
-(`search.csv`), each on about 650 `u` (every seventh for all but ulp(u) and steps back):
-
-- {bred}
-
-On {families} families of aimed curves, {each} of each, {broken} promises were broken, with {steps} steps back.",
-        families = aimed.len(),
-        broken = sum(&aimed, "breaches"),
-    )
-}
-
-fn sum(rows: &[&Row], column: &str) -> f64 {
-    rows.iter().flat_map(|row| row[column].parse::<f64>()).sum()
-}
-
-/// The greatest figure of a column, and a dash where there is none.
-fn most(rows: &[&Row], column: &str) -> String {
-    let figures = rows.iter().flat_map(|row| row[column].parse::<f64>());
-    figures
-        .reduce(f64::max)
-        .map_or_else(|| "-".into(), |most| if most.fract() == 0.0 { most.to_string() } else { number(most) })
-}
-
-fn every_f32(measured: &Measured) -> String {
-    let all: Vec<_> = measured.every_f32.iter().collect();
-    let minutes = sum(&all, "seconds") / 60.0;
-    let mut functions: Vec<_> = all.iter().map(|row| &row["function"]).collect();
-    functions.sort();
-    functions.dedup();
-    let rows = functions.into_iter().map(|function| {
-        let of = |row: &&&Row| &row["function"] == function;
-        let rows: Vec<_> = all.iter().filter(of).copied().collect();
-        let sums = ["count", "out_of_range", "steps_back"].map(|column| match rows[0][column].as_str() {
-            "" => "-".into(),
-            _ => sum(&rows, column).to_string(),
-        });
-        let worst = ["error", "judged"].map(|column| most(&rows, column));
-        let head = [format!("`{function}`"), rows.len().to_string()];
-        head.into_iter().chain(sums).chain(worst).collect()
+fn every_f32(sweeps: &[Sweep]) -> String {
+    let minutes = sweeps.iter().map(|sweep| sweep.seconds).sum::<f64>() / 60.0;
+    let rows = sweeps.chunk_by(|a, b| a.function == b.function).map(|sweeps| {
+        let all = sweeps.iter().cloned().reduce(Sweep::and).expect("a sweep");
+        let steps_back = all.steps_back.map_or_else(|| "-".into(), |steps| steps.to_string());
+        let counts = [sweeps.len().to_string(), all.count.to_string(), all.out_of_range.to_string(), steps_back];
+        let function = format!("`{}`", all.function);
+        [function].into_iter().chain(counts).chain([all.error, all.judged].map(number)).collect()
     });
-    let header = "function | curves | answers | out of range | steps back | error, ulp | judged";
-    let table = table(header, 1, rows);
+    let table = table("function | curves | answers | out of range | steps back | error, ulp | judged", rows);
     format!(
         "## Every f32
 
-`cargo bench -p benches -- --every-f32` asks the inverse for all `f32` in [0, 1], and `cdf` and `openness` at all times of a
-curve (next to a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle samples, and the worst of each 4 million
-(*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has each curve.
+`cargo bench -p benches -- --every-f32` asks the inverse for all `f32` in [0, 1], and `cdf` and `openness` at all times
+of a curve (next to a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle
+samples, and the worst of each 4 million (*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has
+each curve.
 
 {table}
 

@@ -1,4 +1,4 @@
-//! What the pictures are drawn with: the page, a graph over the time of a plan, pens and marks.
+//! What all pictures are drawn with, those of the benchmarks as well: the page, a graph, pens and marks.
 
 use std::error::Error;
 use std::iter::once;
@@ -11,6 +11,7 @@ use shutter_fit::unit::{Unit, decimals, trimmed};
 use super::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, LIGHT, VERMILION, dressed};
 use crate::plan::Plan;
 
+/// What was drawn is on the page.
 pub type Drawn = Result<(), Box<dyn Error>>;
 
 /// Drawn so much larger than it is shown, since the pen moves by whole units.
@@ -49,11 +50,15 @@ pub fn draw_curve(graph: &mut Graph, plan: &Plan, f: impl Fn(f32) -> f32) -> Dra
     Ok(())
 }
 
-/// An axis: its range, its name, how many numbers it has at most, and how these are written.
+/// An axis.
 pub struct Axis<'a> {
+    /// From where to where it goes.
     pub range: Range<f64>,
+    /// What it shows.
     pub name: Option<&'a str>,
+    /// How many numbers it has at most.
     pub labels: usize,
+    /// How these are written.
     pub label: &'a dyn Fn(&f64) -> String,
 }
 
@@ -123,6 +128,7 @@ pub fn steps(from: f32, to: f32, n: usize) -> impl Iterator<Item = f32> + Clone 
     (0..=n).map(move |i| from + (to - from) * (i as f32 / n as f32))
 }
 
+/// For lines of this width, as they are shown.
 pub fn pen(color: RGBColor, width: f64) -> ShapeStyle {
     color.stroke_width((width * f64::from(SCALE)) as u32)
 }
@@ -143,7 +149,7 @@ pub fn knob<C>(at: C) -> Circle<C, i32> {
 }
 
 /// A sign of a graph.
-pub enum Key {
+pub(super) enum Key {
     Line,
     Trace,
     Dot,
@@ -152,7 +158,7 @@ pub enum Key {
 }
 
 /// What the signs mean, below the heading on a page of this width.
-pub fn legend(area: &Area, page: i32, keys: &[(&str, Key)]) -> Drawn {
+pub(super) fn legend(area: &Area, page: i32, keys: &[(&str, Key)]) -> Drawn {
     // By so much a letter is wide, at most.
     let width = |name: &str| 34 + 8 * name.len() as i32;
     let all: i32 = keys.iter().map(|(name, _)| width(name)).sum();

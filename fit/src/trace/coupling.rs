@@ -6,6 +6,8 @@
 
 use super::pulse::{Light, Pulses, pulses};
 use super::samples::Trace;
+use crate::noise::mean;
+use crate::solve::Cholesky;
 
 /// The dark on either side is looked at in so many parts.
 const PARTS: usize = 16;
@@ -21,7 +23,6 @@ pub fn undone(trace: &Trace) -> Option<(Pulses, f64, f64)> {
     let Trace { times, values } = trace;
     let n = times.len();
     let few = (n / 50).max(3);
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (first, last) = (mean(&values[..few]), mean(&values[n - few..]));
     let integral = integral(times, values, first);
     // A first guess, from the ends alone.
@@ -78,29 +79,16 @@ fn with(trace: &Trace, integral: &[f64], rate: f64, slope: f64) -> Trace {
     Trace { times: times.clone(), values: (0..times.len()).map(undone).collect() }
 }
 
-/// What `y` is made of, and the sum of squares that is left: the normal equations by Gauss and Jordan.
-fn least_squares<const N: usize>(rows: &[([f64; N], f64)]) -> Option<([f64; N], f64)> {
-    let mut matrix = [[0.0; N]; N];
-    let mut right = [0.0; N];
-    for (x, y) in rows {
-        for i in 0..N {
-            right[i] += x[i] * y;
-            (0..N).for_each(|j| matrix[i][j] += x[i] * x[j]);
-        }
-    }
-    for k in 0..N {
-        let pivot = matrix[k][k];
-        if pivot.abs() < 1e-9 {
-            return None;
-        }
-        for i in (0..N).filter(|i| *i != k) {
-            let by = matrix[i][k] / pivot;
-            (0..N).for_each(|j| matrix[i][j] -= by * matrix[k][j]);
-            right[i] -= by * right[k];
-        }
-    }
-    let found = std::array::from_fn(|k| right[k] / matrix[k][k]);
-    let missed = |(x, y): &([f64; N], f64)| y - (0..N).map(|k| x[k] * found[k]).sum::<f64>();
-    let squares = rows.iter().map(|row| missed(row).powi(2)).sum();
-    Some((found, squares))
+/// What a `y` is made of.
+type Row<const N: usize> = ([f64; N], f64);
+
+/// How much of each `y` is made of, and the sum of squares that is left.
+fn least_squares<const N: usize>(rows: &[Row<N>]) -> Option<([f64; N], f64)> {
+    let sum = |of: &dyn Fn(&Row<N>) -> f64| rows.iter().map(of).sum::<f64>();
+    let cell = |i: usize, j: usize| sum(&|(x, _)| x[i] * x[j]);
+    let normal = (0..N).map(|i| (0..N).map(|j| cell(i, j)).collect()).collect();
+    let right: Vec<f64> = (0..N).map(|i| sum(&|(x, y)| x[i] * y)).collect();
+    let found: [f64; N] = Cholesky::new(normal)?.solve(&right).try_into().ok()?;
+    let missed = |(x, y): &Row<N>| y - x.iter().zip(found).map(|(x, by)| x * by).sum::<f64>();
+    Some((found, sum(&|row| missed(row).powi(2))))
 }

@@ -20,16 +20,16 @@ const UNITS: [(Unit, &str); 4] = [
 /// Units of time that are not read.
 const OTHER_UNITS: &str = "min mins minutes h hr hours d days ps picoseconds div";
 /// What makes another number of a unit.
-const FACTORS: &str = "ten tens tenth tenths hundred hundreds hundredth hundredths thousand thousandths half halves quarter quarters \
-     deci centi per div sample";
+const FACTORS: &str = "ten tens tenth tenths hundred hundreds hundredth hundredths thousand thousandths half halves \
+     quarter quarters deci centi per div sample";
 const TIMES: &str =
     "time times t timestamp elapsed timer zeit temps tiempo tempo tid tijd czas aika millis micros seconds";
 /// These may stand beside one of the former.
 const BESIDE_TIMES: &str = "stamp since start trigger boot fractional axis x rel relative abs absolute in of the";
 const COUNTS: &str =
     "sample samples index idx n no nr num number point points sequence seq i count counter row tick ticks";
-const SIGNALS: &str = "v mv uv µv kv volt volts mvolt mvolts millivolts a ma ua amp amps ampere w lx lux % db dbv code adc raw value \
-     logic sequence ampl unknown";
+const SIGNALS: &str = "v mv uv µv kv volt volts mvolt mvolts millivolts a ma ua amp amps ampere w lx lux % db dbv code \
+     adc raw value logic sequence ampl unknown";
 
 /// Is the word one of the list's?
 pub fn has(list: &str, word: &str) -> bool {

@@ -121,8 +121,8 @@ fn print(name: &str, rows: &[Row]) {
     );
 }
 
-const HEAD: &str = "| | traces | triggers, median | 90 % | exposure, median | 90 % | triggers covered | exposure covered | from the \
-     trace | wrong | silently | warnings |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|";
+const HEAD: &str = "| | traces | triggers, median | 90 % | exposure, median | 90 % | triggers covered | exposure \
+     covered | from the trace | wrong | silently | warnings |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|";
 
 #[test]
 #[ignore = "some minutes: the tables, for docs/internals/fit.md"]

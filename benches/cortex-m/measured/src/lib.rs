@@ -21,10 +21,11 @@ pub struct Curve {
 include!(concat!(env!("OUT_DIR"), "/curves.rs"));
 
 impl Curve {
-    /// The ramps, on a scale of time.
-    pub fn ramps(&self, is_scaled: bool) -> (CubicBezier, CubicBezier) {
+    /// The ramps in an interval of a second up to twice that, as the timer's rate is the same for all: a power of two
+    /// changes no other bit of a time.
+    pub fn ramps(&self) -> (CubicBezier, CubicBezier) {
         let exponent = (self.closing[3].0 - self.opening[0].0).to_bits() >> 23;
-        let factor = f32::from_bits(if is_scaled { 254 - exponent } else { 127 } << 23);
+        let factor = f32::from_bits((254 - exponent) << 23);
         let ramp = |ramp: baseline::Ramp| CubicBezier::new(ramp.map(|(t, f)| (t * factor, f)));
         (ramp(self.opening), ramp(self.closing))
     }
@@ -51,64 +52,23 @@ pub fn uniform(i: u32) -> f32 {
     (i.wrapping_mul(0x9E37_79B9).wrapping_add(0x4F1B_BCDC) >> 8) as f32 / (1 << 24) as f32
 }
 
-/// A function whose calls are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Function {
-    InverseCdf,
-    /// The inverse of a curve in a `static`, which the compiler sees, as firmware has it; the others call by a
-    /// reference.
-    Static,
-    Cdf,
-    Openness,
-    TickStep,
-    Schedule,
-    Construct,
-    Newton,
-    /// The same with care.
-    NearerEnd,
-    Table,
-    /// Straight ramps, by one square root a side.
-    SqrtLibm,
-    SqrtMicromath,
-    SqrtFpu,
+macro_rules! functions {
+    ($($name:ident)*) => {
+        /// A function whose calls are measured.
+        ///
+        /// `Static` is the inverse of a curve in a `static`, which the compiler sees, as firmware has it; the others
+        /// call by a reference. `Sqrt...` are for straight ramps.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Function { $($name),* }
+        const ALL: &[Function] = &[$(Function::$name),*];
+    };
 }
+functions! { InverseCdf Static Cdf Openness TickStep Schedule Construct NearerEnd Table SqrtLibm SqrtMicromath SqrtFpu }
 
 impl Function {
-    pub const ALL: [Self; 13] = {
-        use Function::*;
-        [
-            InverseCdf,
-            Static,
-            Cdf,
-            Openness,
-            TickStep,
-            Schedule,
-            Construct,
-            Newton,
-            NearerEnd,
-            Table,
-            SqrtLibm,
-            SqrtMicromath,
-            SqrtFpu,
-        ]
-    };
-
     pub fn is_for_straight_ramps(self) -> bool {
         matches!(self, Self::SqrtLibm | Self::SqrtMicromath | Self::SqrtFpu)
     }
-}
-
-/// What a series of calls runs over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inputs {
-    /// Uniform inputs, on a typical curve.
-    Uniform,
-    /// The hard inputs of any curve.
-    Hard,
-}
-
-impl Inputs {
-    pub const ALL: [Self; 2] = [Self::Uniform, Self::Hard];
 }
 
 /// A series of calls on one curve.
@@ -117,20 +77,21 @@ pub struct Series {
     pub function: Function,
     /// What has no octaves counts as having [`DEFAULT`].
     pub octaves: usize,
-    pub inputs: Inputs,
+    /// On the hard inputs of any curve, or on uniform ones on a typical curve.
+    pub is_hard: bool,
     pub curve: usize,
 }
 
 impl Series {
     /// As the host tells the firmware of it.
     pub fn to_bytes(self) -> [u8; 4] {
-        let Self { function, octaves, inputs, curve } = self;
-        [function as u8, octaves as u8, inputs as u8, curve as u8]
+        let Self { function, octaves, is_hard, curve } = self;
+        [function as u8, octaves as u8, is_hard as u8, curve as u8]
     }
 
     pub fn from_bytes(bytes: [u8; 4]) -> Self {
-        let [function, octaves, inputs, curve] = bytes.map(usize::from);
-        Self { function: Function::ALL[function], octaves, inputs: Inputs::ALL[inputs], curve }
+        let [function, octaves, is_hard, curve] = bytes.map(usize::from);
+        Self { function: ALL[function], octaves, is_hard: is_hard == 1, curve }
     }
 
     /// How many calls it makes.
@@ -144,45 +105,28 @@ impl Series {
 
     /// The fractions that are asked for, in order.
     pub fn us(self) -> impl Iterator<Item = f32> {
-        let (count, hard) = match self.inputs {
-            Inputs::Uniform => (UNIFORM, &[][..]),
-            Inputs::Hard => (0, CURVES[self.curve].hard),
-        };
+        let (count, hard) = if self.is_hard { (0, CURVES[self.curve].hard) } else { (UNIFORM, &[][..]) };
         (0..count).map(uniform).chain(hard.iter().copied())
     }
 
     /// The frames whose first steps are measured, as how many triggers and how many steps: one of [`UNIFORM`], or one
     /// of [`TRIGGERS`] and for each hard input the one that starts nearest to it.
     pub fn frames(self) -> impl Iterator<Item = (u32, u32)> {
-        let is_hard = self.inputs == Inputs::Hard;
-        let whole = if is_hard { TRIGGERS } else { UNIFORM };
+        let whole = if self.is_hard { TRIGGERS } else { UNIFORM };
         // A frame has at most 2²² triggers.
-        let first = self.us().filter(move |u| is_hard && (1.0 / (1 << 23) as f32..0.5).contains(u));
+        let first = self.us().filter(move |u| self.is_hard && (1.0 / (1 << 23) as f32..0.5).contains(u));
         core::iter::once((whole, whole)).chain(first.map(|u| ((0.5 / u) as u32, 1)))
     }
-
-    /// The curve's scale of time.
-    pub fn is_scaled(self) -> bool {
-        matches!(self.function, Function::TickStep | Function::Schedule)
-    }
 }
-
-/// Whether the time of curves is scaled: they are built as they are, and with intervals of a second up to twice that,
-/// for the rate of the timer is the same for all.
-pub const SCALES: [bool; 2] = [false, true];
 
 /// The triggers of a planned frame, and the timer's rate.
 pub const TRIGGERS: u32 = 64;
 pub const TICK_HZ: u32 = 1_000_000;
 
 /// The numbers of octaves measured, and the crate's default.
-pub const OCTAVES: [usize; 4] = [0, 4, 8, 16];
+pub const OCTAVES: [usize; 3] = [0, 4, 8];
 pub const DEFAULT: usize = 8;
 
 /// The bytes of a curve with each of them.
-pub const CURVE_BYTES: [usize; 4] = [
-    size_of::<ShutterCurve<0>>(),
-    size_of::<ShutterCurve<4>>(),
-    size_of::<ShutterCurve<8>>(),
-    size_of::<ShutterCurve<16>>(),
-];
+pub const CURVE_BYTES: [usize; 3] =
+    [size_of::<ShutterCurve<0>>(), size_of::<ShutterCurve<4>>(), size_of::<ShutterCurve<8>>()];

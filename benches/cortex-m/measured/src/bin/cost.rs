@@ -10,9 +10,8 @@
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 
-use measured::baseline::{InverseTable, NearerEnd, StraightRamps, TextbookNewton};
-use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL};
-use micromath::F32Ext;
+use measured::baseline::{InverseTable, NearerEnd, StraightRamps};
+use measured::{CURVES, Function, Series, TICK_HZ, TRIGGERS, TYPICAL};
 use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, expect_valid};
 
 #[path = "../machine.rs"]
@@ -66,8 +65,8 @@ fn each<I, O>(inputs: impl Iterator<Item = I>, mut call: impl FnMut(I) -> O) {
     }
 }
 
-/// All curves with so many octaves, on each of the scales.
-type Curves<const C: usize> = [[ShutterCurve<C>; CURVES.len()]; SCALES.len()];
+/// All curves with so many octaves.
+type Curves<const C: usize> = [ShutterCurve<C>; CURVES.len()];
 
 /// The first run's curves; or else they are built, and written for the next.
 fn curves<'a, const C: usize>(input: &mut In, place: &'a mut MaybeUninit<Curves<C>>) -> &'a Curves<C> {
@@ -75,8 +74,7 @@ fn curves<'a, const C: usize>(input: &mut In, place: &'a mut MaybeUninit<Curves<
     // SAFETY: of that length, and zeroed.
     let bytes = || unsafe { core::slice::from_raw_parts_mut(first.cast(), size_of::<Curves<C>>()) };
     if input.read(bytes()) == 0 {
-        let ramps = SCALES.iter().flat_map(|scale| CURVES.iter().map(|curve| curve.ramps(*scale)));
-        for (i, (opening, closing)) in ramps.enumerate() {
+        for (i, (opening, closing)) in CURVES.iter().map(measured::Curve::ramps).enumerate() {
             let curve = ShutterCurve::with_octaves(opening, closing).expect("a good curve");
             // SAFETY: there are so many.
             unsafe { first.cast::<ShutterCurve<C>>().add(i).write(curve) };
@@ -95,7 +93,7 @@ fn by_square_roots(us: impl Iterator<Item = f32>, curve: &measured::Curve, sqrt:
 
 fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
     let data = &CURVES[series.curve];
-    let curve = black_box(&curves[usize::from(series.is_scaled())][series.curve]);
+    let curve = black_box(&curves[series.curve]);
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
     let us = series.us();
     let ts = series.us().map(|u| start + length * u);
@@ -116,7 +114,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
                 curve.ticks_into(ticks, TICK_HZ, gap)
             };
             // On hard curves triggers may share a tick.
-            let gap = u32::from(series.inputs == Inputs::Uniform);
+            let gap = u32::from(!series.is_hard);
             each([gap].into_iter(), |gap| {
                 let planned = the_call(plan, curve, (&mut ticks, gap));
                 black_box((planned, &ticks)).0.is_ok()
@@ -125,14 +123,10 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
         Function::Construct => {
             let mut built = None;
             let build = |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
-            each([data.ramps(false)].into_iter(), |(opening, closing)| {
+            each([data.ramps()].into_iter(), |(opening, closing)| {
                 built = the_call(build, &opening, &closing).ok();
             });
             black_box(built);
-        }
-        Function::Newton => {
-            let newton = black_box(TextbookNewton::new(data.opening, data.closing));
-            each(us, |u| the_call(TextbookNewton::inverse_cdf, &newton, u))
         }
         Function::NearerEnd => {
             let newton = black_box(NearerEnd::new(data.opening, data.closing));
@@ -144,26 +138,24 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
             each(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
         }
         Function::SqrtLibm => by_square_roots(us, data, libm::sqrtf),
-        Function::SqrtMicromath => by_square_roots(us, data, F32Ext::sqrt),
+        Function::SqrtMicromath => by_square_roots(us, data, micromath::F32Ext::sqrt),
         Function::SqrtFpu => by_square_roots(us, data, fpu_sqrt),
     }
 }
 
 fn run() {
     let mut input = In::new();
-    let mut places = (MaybeUninit::zeroed(), MaybeUninit::zeroed(), MaybeUninit::zeroed(), MaybeUninit::zeroed());
+    let mut places = (MaybeUninit::zeroed(), MaybeUninit::zeroed(), MaybeUninit::zeroed());
     let with_0 = curves::<0>(&mut input, &mut places.0);
     let with_4 = curves::<4>(&mut input, &mut places.1);
     let with_8 = curves::<8>(&mut input, &mut places.2);
-    let with_16 = curves::<16>(&mut input, &mut places.3);
     let mut bytes = [0; 4];
     while input.read(&mut bytes) == bytes.len() {
         let series = Series::from_bytes(bytes);
         match series.octaves {
             0 => run_series(series, with_0),
             4 => run_series(series, with_4),
-            8 => run_series(series, with_8),
-            _ => run_series(series, with_16),
+            _ => run_series(series, with_8),
         }
     }
 }

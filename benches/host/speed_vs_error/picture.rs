@@ -1,0 +1,110 @@
+//! The picture of the report: as those of `shutter`.
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+use shutter::picture::drawing::{Axis, SCALE, axes, pen, picture};
+use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION};
+
+use crate::Result;
+use crate::methods::{Kind, METHODS};
+use crate::report::{Measured, cycles};
+
+/// Where the methods' names are, beside the dots of their greatest errors: apart where two dots come close.
+const NAMES: [(i32, i32, HPos); METHODS.len()] = [
+    (9, 0, HPos::Left),
+    (0, -13, HPos::Center),
+    (0, -27, HPos::Center),
+    // Below the ring.
+    (0, 59, HPos::Center),
+    (-9, -5, HPos::Right),
+    (-14, 54, HPos::Center),
+    (9, 0, HPos::Left),
+    (-9, 10, HPos::Right),
+];
+
+/// A power of ten.
+fn power(exponent: f64) -> String {
+    let raised = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    match exponent.round() as i32 {
+        0 => "1".into(),
+        n => format!("10{}{}", if n < 0 { "⁻" } else { "" }, raised[n.unsigned_abs() as usize]),
+    }
+}
+
+/// Error against time and against cycles: the greatest (full) and the mean error (ring) of each method, over what a
+/// sample costs.
+pub fn frontier(path: &str, measured: &Measured) -> Result {
+    let times = measured.times.iter().copied().map(Some).collect();
+    let cycles = METHODS.iter().map(|method| cycles(measured, method)).collect();
+    let title = "Error against time and against cycles: this crate and its peers";
+    let svg = picture((1240, 520), title, |page| {
+        let areas = page.split_evenly((1, 2));
+        panel(&areas[0], "nanoseconds a sample on the host, soft curve", times, measured)?;
+        let cycles = panel(&areas[1], "mean cycles a sample on a Cortex-M4F (model), soft curve", cycles, measured);
+        // Where there is room.
+        legend(&mut cycles?)
+    })?;
+    // What is said of each dot and is so without being said.
+    let svg = svg.replace(" stroke=\"none\" stroke-width=\"1\"/>", "/>").replace(" opacity=\"1\"", "");
+    Ok(std::fs::write(path, svg)?)
+}
+
+fn panel<'a, 'b>(
+    area: &'a Area<'b>,
+    name: &str,
+    costs: Vec<Option<f64>>,
+    measured: &Measured,
+) -> Result<Graph<'a, 'b>> {
+    let logs = costs.iter().flatten().map(|cost| cost.log2());
+    let low = logs.clone().fold(f64::INFINITY, f64::min);
+    let high = logs.fold(f64::NEG_INFINITY, f64::max);
+    let label = |x: &f64| format!("{:.0}", 2f64.powf(x.round()));
+    let x = Axis { range: low - 1.8..high + 1.4, name: Some(name), labels: 11, label: &label };
+    let y =
+        Axis { range: -9.5..0.5, name: Some("error, as a share of the interval"), labels: 6, label: &|y| power(*y) };
+    let mut graph = axes(area, x, y, 62)?;
+    for (((method, figures), cost), (dx, dy, h)) in METHODS.iter().zip(&measured.figures).zip(costs).zip(NAMES) {
+        let Some(cost) = cost else { continue };
+        let color = match method.kind {
+            Kind::Ours => BLUE,
+            Kind::General => VERMILION,
+            Kind::Root => GREY,
+        };
+        let errors = [figures.of_interval.0, figures.of_interval.1];
+        let [most, mean] = errors.map(|error| (cost.log2(), error.max(1e-10).log10()));
+        graph.draw_series([PathElement::new([most, mean], color.mix(0.4).stroke_width(2 * SCALE as u32))])?;
+        graph.draw_series([
+            Circle::new(most, 5 * SCALE, color.filled()),
+            Circle::new(mean, 4 * SCALE, pen(color, 2.0)),
+        ])?;
+        let text = style::text(13 * SCALE, h, VPos::Center);
+        let name = Text::new(method.name.replace('`', ""), (dx * SCALE, dy * SCALE), text);
+        graph.draw_series([EmptyElement::at(most) + name])?;
+    }
+    Ok(graph)
+}
+
+/// Names colours and signs, by series without points.
+fn legend<'a, 'b: 'a>(graph: &mut Graph<'a, 'b>) -> Result {
+    for (name, style) in [
+        ("this crate", BLUE.filled()),
+        ("others, for every curve", VERMILION.filled()),
+        ("square roots, on a trapezoid", GREY.filled()),
+        ("greatest error", INK.filled()),
+        ("mean error", pen(INK, 2.0)),
+    ] {
+        let none = std::iter::empty::<Circle<(f64, f64), i32>>();
+        let series = graph.draw_series(none)?.label(name);
+        series.legend(move |(x, y)| Circle::new((x + 9 * SCALE, y), 9 * SCALE / 2, style));
+    }
+    graph
+        .configure_series_labels()
+        .position(SeriesLabelPosition::MiddleRight)
+        .background_style(WHITE.mix(0.85))
+        .border_style(FAINT)
+        .legend_area_size(30 * SCALE)
+        .margin(8 * SCALE)
+        .label_font(style::font(13 * SCALE))
+        .draw()?;
+    Ok(())
+}
