@@ -35,7 +35,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// ramp: up to `OCTAVES` of them below 1/2, and as many above. They answer most fractions, and a search answers the
 /// rest.
 ///
-/// With the default of 8, about one fraction in 500 of a typical curve needs a search. With 0, every fraction on a ramp
+/// With the default of 8, about one fraction in 400 of a typical curve needs a search. With 0, every fraction on a ramp
 /// does. The promised accuracy is always the same. A curve takes 376 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
 /// Above 16, a constant may exceed the compiler's limit on constant evaluation.
 #[derive(Clone, PartialEq)]
