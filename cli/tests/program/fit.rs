@@ -310,7 +310,8 @@ fn correlated_samples_count_for_fewer() {
     }
 }
 
-/// A cubic ends before an exponential tail does, and no residual shows the light that it leaves out.
+/// A cubic ends before an exponential tail does, and no residual shows the light that it leaves out. It moves the last
+/// trigger most.
 #[test]
 fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
     let (mut covered, mut stated, mut all) = (0.0, 0.0, 0.0);
@@ -319,16 +320,14 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
         let truth = truth(Shutter::LiquidCrystal, &mut random);
         let case = traced(truth, Disturbance::White, 2000, 0.003, &mut random);
         let fit = case.fitted(&Options::default());
-        for (i, trigger) in fit.triggers.iter().enumerate() {
-            let truth = case.trigger((i as f64 + 0.5) / 16.0);
-            covered += f64::from((trigger.value - truth).abs() <= 1.96 * trigger.error);
-            stated += trigger.error / fit.exposure.value;
-            all += 1.0;
-        }
+        let last = fit.triggers[15];
+        covered += f64::from((last.value - case.trigger(15.5 / 16.0)).abs() <= 1.96 * last.error);
+        stated += last.error / fit.exposure.value;
+        all += 1.0;
     }
     assert!(covered / all > 0.9, "covered: {}", covered / all);
     // And not because anything would be.
-    assert!(stated / all < 1e-3, "stated: {}", stated / all);
+    assert!(stated / all < 3e-3, "stated: {}", stated / all);
 }
 
 /// The exposure counts in full light, and noise hides how high a peak without a plateau is: not as a linear model has
