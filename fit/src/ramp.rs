@@ -88,7 +88,8 @@ impl UnitRamp {
     }
 
     /// The place `p` at which the time is `z`: Halley's method inside a bracket that is halved where that leaves it. A
-    /// step from so near that the next one would change nothing is the last.
+    /// step from so near that the next one would change nothing is the last. Inside the ramp the slope is above 0, by
+    /// [`BOUNDS`].
     ///
     /// The error that is left in `p` counts for next to nothing: the integral at a fixed time is the same to first
     /// order.

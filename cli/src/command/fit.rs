@@ -444,13 +444,13 @@ fn fitted(records: &[Record], options: &Options) -> Result<Fit, Refusal> {
     let (begun, mut shown) = (Instant::now(), false);
     let mut progress = |done: f64| {
         if begun.elapsed() > PATIENCE && stderr().is_terminal() {
-            eprint!("\rfitting {:3.0} %", 100.0 * done);
+            _ = write!(stderr(), "\rfitting {:3.0} %", 100.0 * done);
             shown = true;
         }
     };
     let fit = shutter_fit::fit_records(records, options, &mut progress);
     if shown {
-        eprint!("\r             \r");
+        _ = write!(stderr(), "\r             \r");
     }
     fit
 }
