@@ -35,7 +35,7 @@ fire() {
 triggers=(--set-up emulated --triggers 8 --min-gap 100us)
 pulses=(--set-up in_path --triggers 8 --min-gap 100us --duty 0.3)
 
-env ${HOST_RUSTC:+RUSTC="$HOST_RUSTC"} cargo build --quiet --locked --package shutter
+env ${HOST_RUSTC:+RUSTC="$HOST_RUSTC"} cargo build --quiet --locked --package shutter-curve-cli
 python3 from-trace.py record "$scratch"
 "$shutter" fit "$scratch/record.csv" --sync CH2 --out "$scratch/falling.toml" | grep -E '^(sync|delay|spread| +falls)'
 "$shutter" fit "$scratch/record.csv" --sync CH3 --out "$scratch/rising.toml" | grep -E '^ +rises'

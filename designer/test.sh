@@ -22,7 +22,7 @@ npm ci --no-audit --no-fund --loglevel error
 
 ./build.sh
 echo "designer: building the program that serves the page, half a minute the first time ..." >&2
-cargo build --quiet --package shutter
+cargo build --quiet --package shutter-curve-cli
 target=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
 export CHROMIUM FIREFOX SHUTTER="$target/debug/shutter"
 files=(test/*.test.js)

@@ -2,7 +2,7 @@
 //! docs/internals/fit.md, and its picture, come from
 //!
 //! ```text
-//! cargo test --package shutter --test program table:: -- --ignored --nocapture
+//! cargo test --package shutter-curve-cli --test program table:: -- --ignored --nocapture
 //! ```
 //!
 //! `SEED=9000011` before it makes other traces.
