@@ -97,7 +97,7 @@ impl Exposure {
     }
 
     /// The evaluations of the mass that a search for the moment of a fraction takes.
-    #[cfg(feature = "measure")]
+    #[cfg(feature = "_measure")]
     pub(crate) const fn evaluations(&self, fraction: Fraction) -> u32 {
         match self.sought(fraction) {
             Sought::Ramp(ramp, part) if fraction.get() > 0.0 => {

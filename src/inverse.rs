@@ -157,7 +157,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     }
 
     /// How many evaluations of the mass [`inverse_cdf`](Self::inverse_cdf) takes; none where it does not search.
-    #[cfg(feature = "measure")]
+    #[cfg(feature = "_measure")]
     pub(crate) fn evaluations(&self, u: f32) -> Option<u32> {
         let Section::Ramp(ramp) = self.section(Start, u.to_bits()) else { return None };
         let fraction = Fraction::new(u);

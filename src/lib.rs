@@ -145,7 +145,7 @@ mod trigger;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
-#[cfg(feature = "measure")]
+#[cfg(feature = "_measure")]
 pub use search::MAX_EVALUATIONS;
 pub use shutter::{ShutterCurve, expect_valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};

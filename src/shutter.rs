@@ -534,14 +534,14 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 
     /// Whether [`inverse_cdf`](Self::inverse_cdf) answers `u` without a search.
-    #[cfg(feature = "measure")]
+    #[cfg(feature = "_measure")]
     #[must_use]
     pub fn is_direct(&self, u: f32) -> bool {
         self.inverse.evaluations(u).is_none()
     }
 
     /// The number of search steps that [`inverse_cdf`](Self::inverse_cdf) takes for `u`; 0 if it needs no search.
-    #[cfg(feature = "measure")]
+    #[cfg(feature = "_measure")]
     #[must_use]
     pub fn evaluations(&self, u: f32) -> u32 {
         self.inverse.evaluations(u).unwrap_or(0)

@@ -101,7 +101,7 @@ impl<const N: usize> Anchor<N> {
 /// What a search found.
 pub(crate) struct Found {
     pub(crate) place: Pair,
-    #[cfg_attr(not(feature = "measure"), allow(dead_code))]
+    #[cfg_attr(not(feature = "_measure"), allow(dead_code))]
     pub(crate) evaluations: u32,
 }
 

@@ -44,7 +44,7 @@ pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) left: Range<u32>,
 }
 
-#[cfg(feature = "measure")]
+#[cfg(feature = "_measure")]
 impl<const OCTAVES: usize> TriggerTicks<'_, OCTAVES> {
     /// Whether trigger `i` needs no search.
     #[must_use]

@@ -61,7 +61,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     }
 
     /// Does trigger `i` need no search?
-    #[cfg(feature = "measure")]
+    #[cfg(feature = "_measure")]
     pub(crate) const fn is_direct(&self, i: u32) -> bool {
         i < self.n && self.inverse.direct_units(self.fraction(i, 0.0)).is_some()
     }
