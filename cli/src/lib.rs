@@ -14,7 +14,7 @@ pub mod facts;
 pub mod fault;
 pub mod fitted;
 pub mod lamp;
-#[cfg(feature = "picture")]
+#[cfg(feature = "terminal")]
 pub mod picture;
 pub mod plan;
 pub mod planned;

@@ -1,25 +1,22 @@
 //! The plan as an SVG: openness over time in shares of equal exposure, and below it their sum.
 
-pub mod drawing;
+mod drawing;
 mod set_ups;
-pub mod style;
 mod times;
 mod trace;
 
 use std::error::Error;
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
+use chart::plotters::prelude::*;
+use chart::plotters::style::text_anchor::{HPos, VPos};
+use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, VERMILION, pen, picture};
 use shutter_fit::unit::{count, short};
 
 use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::Planned;
-use drawing::{
-    Drawn, Key, MOST_MARKS, POINTS, SCALE, below, draw_curve, graph, is_near, knob, lit, pen, picture, sync, time_range,
-};
+use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, graph, is_near, knob, lit, sync, time_range};
 pub use set_ups::set_ups;
-use style::{Area, GREY, Graph, INK, SHARES, VERMILION};
 pub use trace::trace;
 
 const SIZE: (i32, i32) = (900, 704);
@@ -119,7 +116,7 @@ fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
     let unit = plan.unit;
     let (Some(edge), Some(delay)) = (sync(plan), plan.delay) else { return Ok(()) };
     let start = unit.of(plan.curve.open_start());
-    let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);
+    let label = chart::text(13 * SCALE, HPos::Left, VPos::Bottom);
     let is_near = is_near(plan, edge);
     let from = if is_near { edge } else { time_range(plan).start };
     if is_near {

@@ -1,9 +1,8 @@
-//! The picture of the report: as those of `shutter`.
+//! The picture of the report.
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
-use shutter::picture::drawing::{Axis, SCALE, axes, pen, picture};
-use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION};
+use chart::plotters::prelude::*;
+use chart::plotters::style::text_anchor::{HPos, VPos};
+use chart::{Area, Axis, BLUE, FAINT, GREY, Graph, INK, SCALE, VERMILION, axes, pen, picture};
 
 use crate::Result;
 use crate::methods::{Kind, METHODS};
@@ -77,7 +76,7 @@ fn panel<'a, 'b>(
             Circle::new(most, 5 * SCALE, color.filled()),
             Circle::new(mean, 4 * SCALE, pen(color, 2.0)),
         ])?;
-        let text = style::text(13 * SCALE, h, VPos::Center);
+        let text = chart::text(13 * SCALE, h, VPos::Center);
         let name = Text::new(method.name.replace('`', ""), (dx * SCALE, dy * SCALE), text);
         graph.draw_series([EmptyElement::at(most) + name])?;
     }
@@ -104,7 +103,7 @@ fn legend<'a, 'b: 'a>(graph: &mut Graph<'a, 'b>) -> Result {
         .border_style(FAINT)
         .legend_area_size(30 * SCALE)
         .margin(8 * SCALE)
-        .label_font(style::font(13 * SCALE))
+        .label_font(chart::font(13 * SCALE))
         .draw()?;
     Ok(())
 }

@@ -3,12 +3,12 @@
 
 use std::error::Error;
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
+use chart::plotters::prelude::*;
+use chart::plotters::style::text_anchor::{HPos, VPos};
+use chart::{Area, Axis, BLUE, Drawn, SCALE, VERMILION, axes, pen, picture};
 use shutter_fit::unit::short;
 
-use super::drawing::{Axis, Drawn, SCALE, axes, below, draw_curve, graph, lit, pen, picture, steps, write_heading};
-use super::style::{self, Area, BLUE, VERMILION};
+use super::drawing::{below, draw_curve, graph, lit, steps, write_heading};
 use crate::plan::Plan;
 use crate::set_up::{Row, SetUps};
 
@@ -37,7 +37,7 @@ pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
 
 fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
     let (title, rest) = area.split_vertically(TITLE * SCALE);
-    let label = style::text(15 * SCALE, HPos::Left, VPos::Center);
+    let label = chart::text(15 * SCALE, HPos::Left, VPos::Center);
     title.draw_text(row.title, &label, (24 * SCALE, 20 * SCALE))?;
     let (left, right) = rest.split_horizontally(LEFT * SCALE);
     draw_light(&left, plan, row)?;
@@ -85,7 +85,7 @@ fn draw_doses(area: &Area, doses: &[f64]) -> Drawn {
     });
     graph.draw_series(bars)?;
     if doses.len() <= MOST_LABELS {
-        let label = style::text(10 * SCALE, HPos::Center, VPos::Bottom);
+        let label = chart::text(10 * SCALE, HPos::Center, VPos::Bottom);
         let labels = (0u32..).zip(doses).map(|(i, &dose)| {
             let percent = short((100.0 * dose).round(), 3);
             EmptyElement::at((f64::from(i), dose)) + Text::new(percent, (0, -3 * SCALE), label.clone())

@@ -2,12 +2,12 @@
 
 use std::error::Error;
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
+use chart::plotters::prelude::*;
+use chart::plotters::style::text_anchor::{HPos, VPos};
+use chart::{Axis, INK, SCALE, axes, pen, picture};
 use shutter_fit::unit::{count, decimals, trimmed};
 
-use super::drawing::{Axis, SCALE, axes, draw_marks, pen, picture, write_heading};
-use super::style::{self, INK};
+use super::drawing::{draw_marks, write_heading};
 use crate::times::Times;
 
 const SIZE: (i32, i32) = (900, 240);
@@ -37,7 +37,7 @@ pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
         draw_marks(&mut graph, marks, |(t, y)| vec![(t, 0.0), (t, y)])?;
         for (t, words) in edge.map(|t| (t, "sync")).into_iter().chain([(start, "opens")]) {
             graph.draw_series([PathElement::new([(t, 0.0), (t, 1.0)], pen(INK, 1.2))])?;
-            let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);
+            let label = chart::text(13 * SCALE, HPos::Left, VPos::Bottom);
             let place = EmptyElement::at((t, 1.0));
             graph.draw_series([place + Text::new(words, (6 * SCALE, -4 * SCALE), label)])?;
         }

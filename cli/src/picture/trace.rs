@@ -3,13 +3,13 @@
 use std::error::Error;
 use std::ops::Range;
 
-use plotters::prelude::*;
+use chart::plotters::prelude::*;
+use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, SCALE, axes, pen, picture};
 use shutter_fit::trace::Trace;
 use shutter_fit::unit::{decimals, short, trimmed};
 use shutter_fit::{Fit, From};
 
-use super::drawing::{Axis, Drawn, Key, SCALE, axes, draw_marks, legend, pen, picture};
-use super::style::{Area, BLUE, GREY, Graph};
+use super::drawing::{Key, draw_marks, legend};
 
 const SIZE: (i32, i32) = (900, 640);
 const HEADING: i32 = 88;

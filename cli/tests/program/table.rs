@@ -12,9 +12,8 @@ use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
 use crate::generator::{self, Case, Disturbance, Random, SHUTTERS, Shutter, asked, case, quantile, traced, truth};
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
-use shutter::picture::style;
+use chart::plotters::prelude::*;
+use chart::plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::{Kind, Measured, Options, fit};
 
 /// An interval of so many standard errors to either side holds 95 % of all values, if these are normal.
@@ -241,10 +240,10 @@ fn picture(rows: &[Row]) -> String {
         graph
             .configure_mesh()
             .light_line_style(TRANSPARENT)
-            .bold_line_style(style::FAINT.stroke_width(SCALE))
-            .axis_style(style::GREY.stroke_width(SCALE))
-            .label_style(style::font(14 * scale))
-            .axis_desc_style(style::font(15 * scale))
+            .bold_line_style(chart::FAINT.stroke_width(SCALE))
+            .axis_style(chart::GREY.stroke_width(SCALE))
+            .label_style(chart::font(14 * scale))
+            .axis_desc_style(chart::font(15 * scale))
             .x_desc("error of the trigger times, rms (% of the exposure)")
             .y_desc("share of the traces that are better")
             .x_label_formatter(&|x| format!("{x}"))
@@ -254,9 +253,9 @@ fn picture(rows: &[Row]) -> String {
         // What is required.
         for (error, share) in [(0.05, 0.5), (0.3, 0.9)] {
             let corner = [(0.001, share), (error, share), (error, 0.0)];
-            let pen = style::INK.stroke_width(SCALE);
+            let pen = chart::INK.stroke_width(SCALE);
             graph.draw_series([PathElement::new(corner, pen)]).unwrap();
-            let at = style::text(13 * scale, HPos::Left, VPos::Top);
+            let at = chart::text(13 * scale, HPos::Left, VPos::Top);
             let (x, y) = (error * 1.04, share - 0.01);
             let label = format!("{:.0} % within {error} %", 100.0 * share);
             graph.draw_series([Text::new(label, (x, y), at)]).unwrap();
@@ -284,12 +283,12 @@ fn picture(rows: &[Row]) -> String {
             .position(SeriesLabelPosition::LowerRight)
             .legend_area_size(30 * scale)
             .margin(12 * scale)
-            .label_font(style::font(14 * scale))
+            .label_font(chart::font(14 * scale))
             .draw()
             .unwrap();
         page.present().unwrap();
     }
-    style::dressed(&svg, drawn, SIZE, "Errors of the trigger times of fitted traces, by shutter")
+    chart::dressed(&svg, drawn, SIZE, "Errors of the trigger times of fitted traces, by shutter")
 }
 
 /// What a shutter's file is fitted with shows in the fit's own numbers, too.
