@@ -5,7 +5,7 @@ import { $, watch, write } from './dom.js';
 import { change, model } from './model.js';
 import { rms } from './graph.js';
 import { leads } from './trace.js';
-import { inUnit, isSameShape, perSecond, short } from './scene.js';
+import { asFitted, inUnit, isSamePlace, isSameShape, perSecond, short } from './scene.js';
 
 // A speed as a dial has it: from a third of a second on, seconds are what it shows.
 export const dial = (s) => (s < 0.3 ? `1/${1 / s < 100 ? short(1 / s, 3) : Math.round(1 / s)}` : short(s, 3));
@@ -96,7 +96,8 @@ export function drawFacts({ now: { scene, trace }, view, last, isDraft }, sample
   const ask = fit && trace.file && trace.measured.names.length > 2 && !trace.asked.sync ? leads('sync') : nothing;
   const ticks = plan && timer_hz !== null ? `: ${plan.delay} ticks` : '';
   const sync = delay === null ? html`no delay known ${ask}` : `${short(delay, 7)} ${unit} before it opens${ticks}`;
-  line('Sync', fit?.delay ?? sync, 'delay');
+  const isOwn = fit?.delay && delay === inUnit(trace.scene, unit).delay;
+  line('Sync', isOwn ? fit.delay : sync, 'delay');
   line('Set-up', SET_UPS[set_up] ?? 'not said yet');
   const timer = timer_hz === null ? 'not given: times alone' : rate(timer_hz);
   line('Timer', html`${timer}${plan?.coarse ? doubt(rounding(plan)) : nothing}`);
@@ -105,7 +106,7 @@ export function drawFacts({ now: { scene, trace }, view, last, isDraft }, sample
     const dimmed = `${percents(plan.doses)} from the first, the middle and the last flash: this shutter dims them`;
     line('Light', html`<span class="doubt">${dimmed}</span>`);
   }
-  const changed = trace && !isFitted && samples ? byHand(trace, samples) : nothing;
+  const changed = trace && !isSamePlace(trace.scene, scene) && samples ? byHand(trace, samples) : nothing;
   const name = trace ? html`<h3>${trace.name}</h3>` : nothing;
   render(html`${name}<dl>${lines}</dl>${changed}${plan ? notes(plan, of) : nothing}`, $('facts'));
   const isDoubted = doubts.some(({ about }) => about === 'exposure');
@@ -129,6 +130,5 @@ function byHand({ fit }, samples) {
 
 function backToFit() {
   const { trace, scene } = model.now;
-  const { times, inner, measured, untold } = inUnit(trace.scene, scene.unit);
-  change({ scene: { ...scene, times, inner, measured, untold, ...(measured && { triggers: measured.length }) } });
+  change({ scene: asFitted(scene, inUnit(trace.scene, scene.unit)) });
 }

@@ -5,7 +5,7 @@ import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
 import {
   CHOICES, FIELDS, INNER, KINDS, LAMP, STOPS, TIMES,
-  inUnit, innerOf, isCount, lampOf, perSecond, tidy, withInner, withTimes,
+  inUnit, innerOf, isCount, lampOf, perSecond, tidy, withDelay, withInner, withTimes,
 } from './scene.js';
 import { readTrace } from './trace.js';
 import { label } from './words.js';
@@ -17,6 +17,7 @@ export function startForm() {
   numbers.addEventListener('submit', (event) => event.preventDefault());
   numbers.addEventListener('focusout', () => {
     seal();
+    typed.to = null;
     // Once the focus is elsewhere.
     setTimeout(() => drawForm(model));
   });
@@ -89,11 +90,19 @@ function onInput({ target: { id, value: text, checked } }) {
   if (id === 'triggers') setTriggers(value, id);
   else if (i >= 0) {
     // A ramp keeps its shape when its time is typed, as when it is dragged.
-    const from = good?.unit === scene.unit ? { ...scene, times: good.times, inner: good.inner } : scene;
-    give(withTimes(from, scene.times.with(i, value)), [], id);
+    const { times, inner, measured, delay } = good?.unit === scene.unit ? good : scene;
+    give(withTimes({ ...scene, times, inner, measured, delay }, scene.times.with(i, value)), [], id);
   } else if (k >= 0) give(withInner(scene, innerOf(scene).with(k, value)), [], id);
-  else give({ [id]: value }, [id], id);
+  else if (id === 'delay') {
+    // Each letter is of what was there before the first.
+    if (typed.to !== scene) typed.from = scene;
+    give(withDelay(typed.from, value), [id], id);
+    typed.to = model.now.scene;
+  } else give({ [id]: value }, [id], id);
 }
+
+/** The scene before a delay was typed, and after its last letter. */
+const typed = {};
 
 // What a field shows of a scene.
 function wordsOf(scene, id) {

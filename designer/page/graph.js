@@ -3,7 +3,7 @@
 import { $, atMost, svg, watch, write } from './dom.js';
 import { Handles } from './handles.js';
 import { model, tell } from './model.js';
-import { isSameShape, perSecond, short, tidy } from './scene.js';
+import { edgeOf, isSamePlace, isSameShape, perSecond, short, tidy } from './scene.js';
 import { viewOf } from './view.js';
 
 const LEFT = 44, RIGHT = 16, TOP = 18, BETWEEN = 34, BOTTOM = 44, RESIDUAL = 64;
@@ -87,7 +87,7 @@ export class Graph {
     const layer = (name, clip) => svg('path', { class: name, ...(clip && { 'clip-path': 'url(#below)' }) }, inside);
     this.paths = {
       even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'),
-      curve: layer('curve'), trace: layer('trace'), errors: layer('errors'), dots: layer('dots'),
+      edge: layer('edge'), curve: layer('curve'), trace: layer('trace'), errors: layer('errors'), dots: layer('dots'),
       residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'),
       cross: layer('cross'), arms: layer('arms'),
     };
@@ -173,7 +173,9 @@ export class Graph {
     const light = this.samples?.filter(([, o]) => o > 0.05) ?? [];
     const lit = light.length ? [light[0], light.at(-1)] : [];
     const seen = [...lit, ...this.view.marks.slice(0, 1), ...this.view.marks.slice(-1)].map(([t]) => t);
-    const times = [...ends, ...seen].map((t) => t * per);
+    const times = [...ends, ...seen].map((t) => t * per), edge = edgeOf(this.scene);
+    // So is the edge of the sync, unless that is far off.
+    if (edge !== null && Math.abs(edge - times[0]) <= times[3] - times[0]) times.push(edge);
     const room = 0.05 * (Math.max(...times) - Math.min(...times));
     const range = [Math.min(...times) - room, Math.max(...times) + room];
     const [low, high] = [-0.1, Math.max(1.12, ...light.map(([, o]) => o + 0.08))];
@@ -236,7 +238,7 @@ export class Graph {
     const { view, paths } = this;
     const { trace } = model.now;
     const fit = trace?.fit;
-    const isFitted = fit && isSameShape(trace.scene, this.scene);
+    const isFitted = fit && isSamePlace(trace.scene, this.scene);
     this.samples = isFitted ? fit.samples : fit && this.fitted ? left(fit, this.fitted, view) : null;
     this.fit();
     const per = this.perUnit;
@@ -251,7 +253,8 @@ export class Graph {
     set(paths.curve, `M${LEFT} ${zero}H${start}${ramps}L${end} ${zero}H${LEFT + this.width}`);
     this.clip.setAttribute('d', `M${start} ${zero}${ramps}L${end} ${zero}Z`);
 
-    const top = f(this.y(this.high));
+    const top = f(this.y(this.high)), edge = edgeOf(this.scene), isSeen = edge >= this.range[0] && edge <= this.range[1];
+    set(paths.edge, edge !== null && isSeen ? `M${f(this.x(edge))} ${TOP}V${this.cdfBottom}` : '');
     const shares = ['', ''];
     if (view.edges.length <= MOST_SHARES) {
       const edges = view.edges.map((t) => f(X(t)));
@@ -288,7 +291,7 @@ export class Graph {
     if (this.scene.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
     else paths.lamp.removeAttribute('clip-path');
     const { samples } = this;
-    const keys = { lamp: pulses.length, trace: samples, share: shares[1] };
+    const keys = { lamp: pulses.length, trace: samples, share: shares[1], edge: edge !== null && isSeen };
     for (const [name, isThere] of Object.entries(keys)) document.querySelector(`.${name}-key`).hidden = !isThere;
     const points = (y) => samples ? `M${samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L')}` : '';
     set(paths.trace, points(([, o]) => this.y(o)));

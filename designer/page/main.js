@@ -10,7 +10,7 @@ import { drawForm, startForm } from './form.js';
 import { Graph, outline } from './graph.js';
 import { change, go, model, startModel, tell } from './model.js';
 import { drawPhoto } from './photo.js';
-import { FIELDS, fromScene, hash, toml } from './scene.js';
+import { FIELDS, edgeOf, fromScene, hash, toml } from './scene.js';
 import { drawSpeeds } from './speeds.js';
 import { drawTicks } from './ticks.js';
 import { drawTrace, openFiles, startTraces } from './trace.js';
@@ -123,7 +123,7 @@ async function begin() {
 }
 
 /** For tests and the curious. */
-globalThis.designer = { FIELDS, KEYS, model, hash, toml };
+globalThis.designer = { FIELDS, KEYS, edgeOf, model, hash, toml };
 
 const fallen = ({ message }) => `The page is not whole: ${message}. Load it again, in a browser with WebAssembly.`;
 begin().catch((error) => missing(fallen(error)));

@@ -62,8 +62,8 @@ export function inUnit(scene, unit) {
   return converted;
 }
 
-/** Are two scenes of the same shutter? */
-export function isSameShape(a, b) {
+/** Are two scenes of the same shutter, at the same times? */
+export function isSamePlace(a, b) {
   const shape = (scene) => {
     const { times, inner, measured } = inUnit(scene, 'ns');
     return String([times, inner, measured]);
@@ -71,13 +71,55 @@ export function isSameShape(a, b) {
   return shape(a) === shape(b);
 }
 
+/** Are they of the same shutter, be one later than the other? */
+export function isSameShape(a, b) {
+  const { times, measured, inner } = inUnit(b, a.unit);
+  const room = 1e-9 * (a.times[3] - a.times[0]);
+  const isNear = (t, i) => Math.abs(t - a.times[i] - times[0] + a.times[0]) <= room;
+  return times.every(isNear) && String([a.inner, a.measured]) === String([inner, measured]);
+}
+
+/** From where its triggers' delay counts, in the scene's unit. */
+const opensAt = ({ measured, times }) => (measured ? 0 : times[0]);
+
+/** The time of the sync's edge in a scene that knows it, else null. */
+export const edgeOf = (scene) => (scene.delay === null ? null : tidy(opensAt(scene) - scene.delay));
+
 /** The inner control points; those of straight ramps where the scene has none. */
 export function innerOf(scene) {
   return scene.inner ?? placed(STRAIGHT, scene.times);
 }
 
+/**
+ * The scene with a shutter that is drawn: what was measured, and what was doubtful about that, is another's. The edge
+ * of the sync stands still.
+ */
+export function withShape(scene, times, inner) {
+  const doubts = scene.doubts.filter(({ about }) => about === 'delay'), edge = edgeOf(scene);
+  const delay = edge === null ? null : tidy(times[0] - edge);
+  return { ...scene, times, inner, delay, measured: null, untold: null, doubts };
+}
+
+/** The scene with the shutter that was fitted. The edge of the sync stands still. */
+export function asFitted(scene, { times, inner, measured, untold, doubts }) {
+  const edge = edgeOf(scene), delay = edge === null ? null : tidy(opensAt({ times, measured }) - edge);
+  return { ...scene, times, inner, delay, measured, untold, doubts, ...(measured && { triggers: measured.length }) };
+}
+
 /** The scene with other inner control points. */
-export const withInner = (scene, inner) => ({ ...scene, inner, measured: null, untold: null });
+export const withInner = (scene, inner) => withShape(scene, scene.times, inner);
+
+/**
+ * The scene with another delay. The edge of the sync stands still, and the curve moves; where none is known yet, this
+ * says where it is. Without a delay there is no edge to tell of.
+ */
+export function withDelay(scene, delay) {
+  const doubts = scene.doubts.filter(({ about }) => about !== 'delay');
+  if (delay === null) return { ...scene, delay, delay_spread: null, sync_falls: null, doubts };
+  const by = scene.delay === null || scene.measured ? 0 : delay - scene.delay;
+  const times = by ? scene.times.map((t) => tidy(t + by)) : scene.times;
+  return { ...scene, times, delay, doubts };
+}
 
 export function lampOf({ pulse, duty, fully_open }) {
   return pulse !== null ? 'pulse' : duty !== null ? 'duty' : fully_open ? 'full' : '';
@@ -107,7 +149,7 @@ function placed(parts, times) {
 export function withTimes(scene, times) {
   const isSound = times.every(Number.isFinite) && times[3] > times[0];
   const { inner } = scene;
-  return { ...withInner(scene, inner && isSound ? placed(relative(inner, scene.times), times) : inner), times };
+  return withShape(scene, times, inner && isSound ? placed(relative(inner, scene.times), times) : inner);
 }
 
 /** The scene as the part of an address behind '#', with a table of speeds beside it if there is one. */

@@ -5,7 +5,9 @@ import { $, watch } from './dom.js';
 import { change, model, tell } from './model.js';
 import { taken } from './numbers.js';
 import { UNITS } from './presets.js';
-import { GIVEN, LAMP, SETTINGS, fromScene, inUnit, isCount, isSameShape, perSecond, short, tidy } from './scene.js';
+import {
+  GIVEN, LAMP, SETTINGS, fromScene, inUnit, isCount, isSamePlace, isSameShape, perSecond, short, tidy,
+} from './scene.js';
 import { cancelFit, fitTrace, parseScene } from './studio.js';
 
 /** Longer files are not read: a trace would fill the page's memory. */
@@ -93,7 +95,7 @@ async function fitted(busy, file, asked) {
 export async function readTrace(file, asked, wanted) {
   const there = () => (isCount(model.now.scene.triggers) ? model.now.scene.triggers : 12);
   const triggers = wanted ?? there();
-  const isSame = model.now.trace?.file === file;
+  const shown = model.now.trace, isSame = shown?.file === file, isSameReading = isSame && asked === shown.asked;
   const before = model.now.scene;
   const busy = Object.assign(computing(`Reading ${file.name}`), { file });
   const answer = await fitted(busy, file, { ...asked, triggers });
@@ -107,13 +109,16 @@ export async function readTrace(file, asked, wanted) {
   if (!fit) return refuseFile(`${file.name}: ${Err.text}`, { ...read, words: Err.text, mend: Err.mend });
   tell({ busy: null });
   const give = () => {
-    const scene = withFit({ ...model.now.scene, triggers }, file.name.replace(/\.\w+$/, ''), fit, isSame);
+    const scene = withFit({ ...model.now.scene, triggers }, file.name.replace(/\.\w+$/, ''), fit, isSame, isSameReading);
     change({ scene, trace: { ...read, fit, scene }, speeds: null });
   };
-  // What a person drew while it was computed is not taken away unasked.
-  if (isSameShape(before, model.now.scene)) give();
+  // What a hand has moved on this trace is not taken away unasked, nor what it moves meanwhile.
+  const isNow = isSamePlace(before, model.now.scene);
+  const isHand = isSame && !isSameReading && (!isSamePlace(shown.scene, before)
+    || (fit.scene.delay != null && inUnit(shown.scene, before.unit).delay !== model.now.scene.delay));
+  if (isNow && !isHand) give();
   else {
-    const words = `${file.name} is fitted; the curve was changed meanwhile.`;
+    const words = `${file.name} is fitted; the curve was changed ${isNow ? 'by hand before' : 'meanwhile'}.`;
     tell({ note: { words, act: ['Show the fit', give] } });
   }
 }
@@ -122,12 +127,12 @@ export async function readTrace(file, asked, wanted) {
  * The shutter of a fit to a trace. Of the scene before there stays what a person gave; its name, its nominal speed and
  * the delay of its sync are another shutter's, unless the same trace was read otherwise.
  */
-function withFit(scene, name, fit, isSame) {
+function withFit(scene, name, fit, isSame, isSameReading) {
   const found = fromScene(name, fit.scene);
   const { given, triggers } = scene;
   const unit = given.includes('unit') ? scene.unit : found.unit, per = perSecond(unit);
   const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
-  const isSynced = fresh.delay !== null;
+  const isSynced = fresh.delay !== null && !isSameReading;
   const stays = (key) => given.includes(LAMP.includes(key) ? 'lamp' : key)
     && (isSame || !['name', 'nominal', ...OF_SYNC].includes(key)) && !(isSynced && OF_SYNC.includes(key));
   for (const key of ['name', ...SETTINGS].filter(stays)) fresh[key] = old[key];

@@ -235,6 +235,101 @@ test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, wh
   assert.deepEqual(await ticks(), JSON.parse(await planned('json', 'soft')).triggers.map((it) => it.ticks));
 });
 
+test('the delay ends at the opening: the edge of the sync stands still, whatever moves', async () => {
+  const edge = () => page.evaluate(() => designer.edgeOf(designer.model.now.scene));
+  const delays = async () => {
+    const sync = Number(/Sync([\d.]+) ms/.exec(await facts())[1]), [first] = await rows('#ticks tbody');
+    const link = await page.evaluate(() => designer.hash(designer.model.now));
+    const all = [await number('delay'), sync, /&delay=([^&]*)/.exec(link)[1]];
+    const { triggers: [{ ticks, from_edge_ticks: from }] } = JSON.parse(await copied('json'));
+    return [...all.map((x) => Number(Number(x).toFixed(4))), Number(first.at(-1)) === from ? (from - ticks) / 1000 : NaN];
+  };
+  const is = (delay) => [delay, delay, delay, delay];
+  // By a link: a curve that is drawn, with a delay that was told.
+  await open(`${SOFT}&delay=2&sync_falls=true`);
+  assert.deepEqual([await edge(), await delays()], [-2, is(2)]);
+  await page.fill('#open_start', '0.5');
+  assert.deepEqual([await edge(), await delays()], [-2, is(2.5)]);
+  await page.blur('#open_start');
+  await page.focus('#handle-open_start');
+  await page.press('ArrowRight');
+  assert.deepEqual([await edge(), await delays()], [-2, is(2.6)]);
+  for (const handle of ['open_end', 't1', 'close_end']) await dragged(handle, 12, 8);
+  assert.deepEqual([await edge(), await delays()], [-2, is(2.6)]);
+  // Typed, letter by letter: the curve moves as a whole.
+  const before = await Promise.all(['open_start', 'close_end', 't1'].map(number));
+  await page.$eval('#delay', (it) => it.select());
+  await page.keyboard.type('3.125');
+  assert.deepEqual([await edge(), await delays()], [-2, is(3.125)]);
+  const after = await Promise.all(['open_start', 'close_end', 't1'].map(number));
+  assert.deepEqual(after, [before[0] + 0.525, before[1] + 0.525, before[2]].map((x) => Number(x.toPrecision(12))));
+  await page.press('Control+z');
+  assert.deepEqual([await edge(), await delays()], [-2, is(2.6)]);
+  // Without a delay there is no edge, nor which way it goes; the first that is told moves nothing.
+  const times = () => page.evaluate(() => designer.model.now.scene.times);
+  const there = await times();
+  await page.fill('#delay', '');
+  assert.ok(!(await page.isSeen('#problem')));
+  assert.deepEqual([await edge(), await page.value('#sync_falls'), await times()], [null, '', there]);
+  await page.blur('#delay');
+  await page.$eval('#delay', (it) => it.select());
+  await page.keyboard.type('1.25');
+  assert.deepEqual(await times(), there);
+  assert.equal(await edge(), there[0] - 1.25);
+});
+
+test('on a trace the edge stands where the sync has it, and nothing that a hand moved is taken away', async () => {
+  await open('');
+  const [head, ...samples] = trace({ from: 5, samples: 2000 }).trim().split('\n');
+  const synced = samples.map((row) => `${row},${row.split(',')[0] < 0.002 ? 3.3 : 0.1}`);
+  await drop(['two.csv', [`${head},sync_v`, ...synced].join('\n')]);
+  await fitted('two.csv');
+  await page.fill('#trace [name=sync]', '3');
+  await isRead();
+  await page.until(() => designer.model.now.scene.delay !== null);
+  await page.fill('#timer_hz', '1 MHz');
+  await page.fill('#set_up', 'emulated');
+  const edge = () => page.evaluate(() => designer.edgeOf(designer.model.now.scene));
+  const first = await edge(), place = await page.attribute('path.edge', 'd');
+  const told = await facts();
+  assert.match(told, /Sync(2\.9|3\.0)\d* ±/);
+  const [opens, delay] = [await number('open_start'), await number('delay')];
+  await page.fill('#open_start', String(opens + 0.5));
+  assert.equal(await edge(), first);
+  assert.ok(Math.abs(await number('delay') - delay - 0.5) < 1e-6);
+  assert.match(await copied('toml'), new RegExp(`^delay = ${await page.value('#delay')}$`, 'm'));
+  assert.match(await facts(), new RegExp(`Sync${String(Number((delay + 0.5).toPrecision(5)))}`));
+  await page.push('Back to the fit');
+  assert.deepEqual([await edge(), await facts(), await page.attribute('path.edge', 'd')], [first, told, place]);
+  await page.fill('#delay', '2.5');
+  assert.match(await facts(), /Sync2\.5 ms/);
+  assert.equal(await edge(), first);
+  assert.match(await facts(), /Changed by hand/);
+  assert.match(await copied('rust'), /DELAY_TICKS: u32 = 2_500;/);
+  // Read otherwise, what is typed stays, until a person says so.
+  await page.fill('#trace [name=light]', 'up');
+  await page.says('the curve was changed by hand before');
+  assert.equal(await page.value('#delay'), '2.5');
+  await page.push('Show the fit');
+  assert.ok(Math.abs(await number('delay') - delay) < 1e-6);
+  await page.fill('#delay', '');
+  await page.fill('#trace [name=light]', 'auto');
+  await page.says('the curve was changed by hand before');
+  assert.equal(await page.value('#delay'), '');
+});
+
+test('a doubt of a fit goes with the fit: what is drawn is doubted no more', async () => {
+  await open();
+  await drop(['clipped.csv', clipped()]);
+  await fitted('clipped.csv');
+  for (const form of ['toml', 'csv', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
+  await dragged('open_end', 20, 0);
+  for (const form of ['toml', 'csv', 'json']) assert.doesNotMatch(await copied(form), /clipped: |own/, form);
+  assert.doesNotMatch(await page.evaluate(() => designer.hash(designer.model.now)), /doubt/);
+  await page.push('Back to the fit');
+  assert.match(await copied('json'), /clipped: \d+ %/);
+});
+
 test('the keyboard alone gets from a preset to a copied module, in twelve stops of Tab; nothing moves', async () => {
   await page?.close();
   for (const [width, height] of [[1440, 900], [390, 844]]) {
@@ -772,9 +867,6 @@ test('a clipped trace is doubted on the screen, in every form, link and row', as
   for (const form of ['rust', 'c', 'toml', 'csv', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
   JSON.parse(await copied('json'));
   const link = await copiedBy(() => page.click('#link'));
-  // A hand on a handle does not make the trace a better one.
-  await dragged('open_end', 20, 0);
-  assert.match(await facts(), /clipped: \d+ %/);
   await follow(link);
   assert.match(await facts(), /clipped: \d+ %/);
   await drop(['clipped.csv', clipped()], ['clean.csv', trace()]);
