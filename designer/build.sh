@@ -23,13 +23,19 @@ if [ ! -d "$(rustc --print target-libdir --target "$target")" ] &&
     build+=(-Zbuild-std=std,panic_abort)
 fi
 
+command -v npm >/dev/null || { echo "designer: missing Node.js, 20 or later" >&2; exit 1; }
+if [ ! -x node_modules/.bin/esbuild ] || [ package-lock.json -nt node_modules ]; then
+    echo "designer: fetching what joins its scripts, and what drives a browser in its tests, 30 MB, some seconds ..." >&2
+    npm ci --no-audit --no-fund --loglevel error
+    touch node_modules
+fi
+
 echo "designer: building the page, in two parts, a minute or two the first time ..." >&2
 rm -rf dist.new
 mkdir dist.new
 files=dist.new/files
 mkdir $files
-cp page/icon.svg page/worker.js ../cli/traces/leaf.csv $files
-sed -E 's/^ +//; /^\/\*.*\*\/$/d' page/style.css >$files/style.css
+cp page/icon.svg ../cli/traces/leaf.csv $files
 folder=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
 built=$folder/$target/page/designer.wasm
 # First what the page begins with, then what it loads when that is asked for.
@@ -38,18 +44,10 @@ cp "$built" $files/engine.wasm
 "${build[@]}" --features studio
 cp "$built" $files/studio.wasm
 
-# One script: the modules one after the other, whose outermost names differ; the renderer within a function.
-{
-    cargo run --quiet --package designer --bin presets | sed 's/^export default /const presets = /; s/^export //'
-    echo 'const { html, nothing, render } = (() => {'
-    exported='export{.*b as html.*A as nothing.*D as render.*};'
-    sed "s/$exported/return { html: b, nothing: A, render: D };/" page/lit-html.js
-    echo '})();'
-    for module in dom scene view model graph handles photo facts words numbers studio form trace speeds export bar \
-        ticks main; do
-        sed -E '/^import .* from /d; /^import \{$/,/^\} from /d; /^ *\/\//d; s/^export //' "page/$module.js"
-    done | awk '/^ *\/\*\*/ { inside = 1 } !inside { sub(/^ +/, ""); print } /\*\/ *$/ { inside = 0 }'
-} >$files/page.js
+cargo run --quiet --package designer --bin presets >dist.new/presets.json
+bundled=(npx esbuild --bundle --minify --format=esm --target=es2023 --log-level=warning --outdir=$files)
+"${bundled[@]}" page/main.js page/worker.js page/style.css "--alias:presets=$PWD/dist.new/presets.json"
+rm dist.new/presets.json
 
 # All but the page itself stands in a folder that is called by its content: what an old index.html names is never a new
 # file, however long a host lets browsers keep either.

@@ -15,11 +15,6 @@ browser() {
 }
 CHROMIUM=$(browser chromium chromium-browser google-chrome)
 FIREFOX=$(browser firefox-esr firefox)
-command -v node >/dev/null || { echo "designer: missing Node.js, 20 or later" >&2; exit 1; }
-# They drive those browsers, and download none.
-echo "designer: fetching what drives the browser, 20 MB, some seconds ..." >&2
-npm ci --no-audit --no-fund --loglevel error
-
 ./build.sh
 echo "designer: building the program that serves the page, half a minute the first time ..." >&2
 cargo build --quiet --package shutter-curve-cli

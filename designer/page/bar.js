@@ -1,6 +1,6 @@
 // What is wrong, computed or told, where it is seen wherever one is; and which fields it is about.
 
-import { html, render } from './lit-html.js';
+import { html, render } from 'lit-html';
 import { $, watch, write } from './dom.js';
 import { helps } from './export.js';
 import { go, tell } from './model.js';

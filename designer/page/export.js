@@ -1,6 +1,6 @@
 // What is taken away: the plan in the forms that a firmware or a script takes, a link, a picture.
 
-import { html, nothing, render } from './lit-html.js';
+import { html, nothing, render } from 'lit-html';
 import { $, arrowed, watch } from './dom.js';
 import { give } from './form.js';
 import { model } from './model.js';

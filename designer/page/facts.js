@@ -1,6 +1,6 @@
 // The answer: a trace's results or a curve's facts, and beside each number what is doubtful about it.
 
-import { html, nothing, render } from './lit-html.js';
+import { html, nothing, render } from 'lit-html';
 import { $, watch, write } from './dom.js';
 import { change, model } from './model.js';
 import { rms } from './graph.js';

@@ -1,7 +1,7 @@
 // The page: draws the model, and changes it as a person asks.
 
-import presets, { KEYS, REPOSITORY } from './presets.js';
-import { html, nothing, render } from './lit-html.js';
+import { keys as KEYS, presets, repository as REPOSITORY } from 'presets';
+import { html, nothing, render } from 'lit-html';
 import { $, arrowed } from './dom.js';
 import { drawBar } from './bar.js';
 import { drawExport, showExport, startExport } from './export.js';

@@ -1,6 +1,6 @@
 // A scene's numbers: as an object, as the part of the address behind '#', and as TOML.
 
-import { KEYS, UNITS } from './presets.js';
+import { keys as KEYS, units as UNITS } from 'presets';
 
 /** The program's keys: the times, the ramps' control points, and what is set. */
 const RAMPS = KEYS.indexOf('shutteropening');

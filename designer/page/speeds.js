@@ -1,6 +1,6 @@
 // A shutter tester's table: the speeds of several traces.
 
-import { html, render } from './lit-html.js';
+import { html, render } from 'lit-html';
 import { $, watch } from './dom.js';
 import { copyLink } from './export.js';
 import { doubt, dial, nearest, stops } from './facts.js';

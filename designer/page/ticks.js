@@ -1,6 +1,6 @@
 // The table of ticks, which is written when it is seen.
 
-import { html, nothing, render } from './lit-html.js';
+import { html, nothing, render } from 'lit-html';
 import { $, watch } from './dom.js';
 import { doubt, rounding } from './facts.js';
 import { perSecond } from './scene.js';

@@ -1,10 +1,10 @@
 // Files: a scene, a trace, several traces. How a trace is read, and what is made of it.
 
-import { html, nothing, render } from './lit-html.js';
+import { html, nothing, render } from 'lit-html';
 import { $, watch } from './dom.js';
 import { change, model, tell } from './model.js';
 import { taken } from './numbers.js';
-import { UNITS } from './presets.js';
+import { units as UNITS } from 'presets';
 import {
   GIVEN, LAMP, SETTINGS, fromScene, inUnit, isCount, isSamePlace, isSameShape, perSecond, short, tidy,
 } from './scene.js';

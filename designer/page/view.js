@@ -1,6 +1,6 @@
 // The crate as WebAssembly, for what follows the mouse.
 
-import { CODES, KEYS, UNITS } from './presets.js';
+import { codes as CODES, keys as KEYS, units as UNITS } from 'presets';
 import { CHOICES, INNER, NUMBERS, TIMES } from './scene.js';
 
 /** The address of a file beside this script. */

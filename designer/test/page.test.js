@@ -616,7 +616,7 @@ test('axe finds nothing in any state of the page, in light and dark', async () =
 
 test('under any path the page is whole; where a script or the WebAssembly is missing, it says so', async () => {
   const types = { html: 'text/html', js: 'text/javascript', css: 'text/css', wasm: 'application/wasm' };
-  for (const missing of [undefined, /engine\.wasm$/, /page\.js$/]) {
+  for (const missing of [undefined, /engine\.wasm$/, /main.js$/]) {
     const fresh = extend(await browser.newPage());
     await fresh.setRequestInterception(true);
     fresh.on('request', (request) => {
@@ -626,7 +626,7 @@ test('under any path the page is whole; where a script or the WebAssembly is mis
     });
     await fresh.goto(`${url}a/path/`);
     if (!missing) await ready(fresh);
-    else if (!missing.test('page.js')) await fresh.waitForSelector('#missing.now');
+    else if (!missing.test('main.js')) await fresh.waitForSelector('#missing.now');
     await fresh.evaluate(() => document.getAnimations().forEach((animation) => animation.finish()));
     assert.equal(await fresh.isSeen('#missing'), Boolean(missing), String(missing));
     if (missing) assert.match(await fresh.text('#missing'), /^The page is not whole/);

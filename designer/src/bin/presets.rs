@@ -22,6 +22,15 @@ struct Preset {
     scene: Scene,
 }
 
+#[derive(Serialize)]
+struct Told<'a> {
+    repository: Option<&'a str>,
+    units: &'a [Unit],
+    keys: &'a [&'a str],
+    codes: &'a [&'a str],
+    presets: Vec<Preset>,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let preset = |name| {
         let text = fs::read_to_string(format!("{SCENES}/{name}.toml"))?;
@@ -32,10 +41,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let manifest = fs::read_to_string(MANIFEST)?;
     let mut lines = manifest.lines();
     let repository = lines.find_map(|line| line.strip_prefix("repository = "));
-    println!("export const REPOSITORY = {};", repository.unwrap_or("null"));
-    println!("export const UNITS = {};", serde_json::to_string(&Unit::ALL)?);
-    println!("export const KEYS = {};", serde_json::to_string(&KEYS)?);
-    println!("export const CODES = {};", serde_json::to_string(Code::VARIANTS)?);
-    println!("export default {};", serde_json::to_string(&presets)?);
+    let repository = repository.map(|it| it.trim_matches('"'));
+    let units = Unit::ALL;
+    let told = Told { repository, units: &units, keys: &KEYS, codes: Code::VARIANTS, presets };
+    println!("{}", serde_json::to_string(&told)?);
     Ok(())
 }
