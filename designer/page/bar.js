@@ -9,7 +9,11 @@ import { FIELDS, INNER } from './scene.js';
 
 const isNewWrong = watch(), isNewBusy = watch();
 const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
-const showRead = () => $('trace').scrollIntoView({ block: 'center' });
+const showRead = () => {
+  const why = $('trace').querySelector('.wrong');
+  why.focus();
+  why.scrollIntoView({ block: 'center' });
+};
 
 // What a person can do about it.
 function buttonsFor(wrong, note, pending) {
@@ -17,14 +21,15 @@ function buttonsFor(wrong, note, pending) {
   if (wrong) return helps(remedies(wrong));
   if (!note) return [];
   const close = button('Close', () => tell({ note: null }));
-  return [note.act ? button(...note.act) : [], pending ? button('Show how it is read', showRead) : [], close];
+  return [note.act ? button(...note.act) : [], pending ? button('Show why', showRead) : [], close];
 }
 
 /** Draws it. */
 export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
   // While something is computed, a button that is pressed stays.
   if (isNewWrong(wrong, note, pending, view)) {
-    const words = wrong ? told(wrong, scene) : note?.words ?? '';
+    const head = wrong?.isLink && !wrong.reason ? 'The link holds no curve: ' : '';
+    const words = wrong ? head + told(wrong, scene) : note?.words ?? '';
     $('problem').hidden = !words;
     $('problem').classList.toggle('wrong', Boolean(wrong || note?.isWrong));
     render(html`<span>${words}</span><span class="buttons">${buttonsFor(wrong, note, pending)}</span>`, $('problem'));

@@ -6,7 +6,6 @@ import { give } from './form.js';
 import { model } from './model.js';
 import { hash, toml, warnings } from './scene.js';
 import { emitForm } from './studio.js';
-import { remedies, told } from './words.js';
 
 const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON']];
 
@@ -61,8 +60,7 @@ export function drawExport({ now: { scene }, view, wrong }) {
   if (!isNewForm(scene, chosen, wrong)) return;
   say('');
   // A newer one may be under way, which then is what is shown and copied.
-  const refused = () => Promise.resolve({ reason: told(wrong, scene), remedies: remedies(wrong) });
-  const of = (made = wrong ? refused() : written(scene, chosen));
+  const of = (made = wrong ? Promise.resolve({}) : written(scene, chosen));
   $('code').classList.add('waits');
   if (wrong) offerCopy(false);
   of.then((it) => of === made && showForm(it));
@@ -100,7 +98,9 @@ function showForm({ text, reason, remedies = [] }) {
   offerCopy(Boolean(text));
   $('code').classList.remove('waits');
   $('code').scrollTop = 0;
-  if (!text) return render(html`<p>There is nothing to copy yet: ${reason}.</p>${helps(remedies)}`, $('code'));
+  // What is wrong is told in the bar.
+  const why = reason ? `: ${reason}` : '';
+  if (!text) return render(html`<p>There is nothing to copy yet${why}.</p>${helps(remedies)}`, $('code'));
   // What is told of a plan in comments comes after what a firmware reads.
   const [head] = /^(?:(?:\/\/|#(?!\[)|\/?\*| \*).*\n|\n)*/.exec(text);
   const lines = head.trim().split('\n').length;

@@ -4,11 +4,9 @@ import { html, nothing, render } from 'lit-html';
 import { $, watch, write } from './dom.js';
 import { change, model } from './model.js';
 import { rms } from './graph.js';
+import { dial } from './numbers.js';
 import { leads } from './trace.js';
 import { asFitted, inUnit, isSamePlace, isSameShape, perSecond, short } from './scene.js';
-
-// A speed as a dial has it: from a third of a second on, seconds are what it shows.
-export const dial = (s) => (s < 0.3 ? `1/${1 / s < 100 ? short(1 / s, 3) : Math.round(1 / s)}` : short(s, 3));
 
 const PARTS_OF_SECOND = [8000, 4000, 2000, 1000, 500, 250, 125, 60, 30, 15, 8, 4, 2];
 const DIALS = [...PARTS_OF_SECOND.map((part) => 1 / part), 1, 2, 4, 8, 16, 32];
@@ -36,7 +34,13 @@ export function percents(doses) {
 export const rounding = ({ coarse }) =>
   `a tick is so long that flashes move by up to ${short(coarse, 2)} % of a share; a faster timer moves them less`;
 
-export const doubt = (words) => html`<small class="doubt">${words}</small>`;
+/** What is doubtful: a short heading, behind which all of it is told. */
+export function doubt(words) {
+  const [head] = /^(?:line \d+: )?.{6,}?(?=[;,:] |$)/s.exec(words) ?? [words];
+  if (head === words) return html`<small class="doubt">${words}</small>`;
+  const [, mark, rest] = /^([;,:] )(.*)$/s.exec(words.slice(head.length));
+  return html`<details class="doubt"><summary>${head}</summary><span class="sr">${mark}</span>${rest}</details>`;
+}
 
 function rate(hz) {
   const [by, unit] = hz >= 1e6 ? [1e6, 'MHz'] : hz >= 1e3 ? [1e3, 'kHz'] : [1, 'Hz'];

@@ -2,7 +2,7 @@
 
 import { $, watch, write } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
-import { parse } from './numbers.js';
+import { dial, parse } from './numbers.js';
 import {
   CHOICES, FIELDS, INNER, KINDS, LAMP, STOPS, TIMES,
   inUnit, innerOf, isCount, lampOf, perSecond, tidy, withDelay, withInner, withTimes,
@@ -108,8 +108,15 @@ const typed = {};
 function wordsOf(scene, id) {
   const i = TIMES.indexOf(id), k = INNER.indexOf(id);
   const value = i >= 0 ? scene.times[i] : k >= 0 ? innerOf(scene)[k] : scene[id];
-  const words = value === null ? '' : String(k >= 0 && Number.isFinite(value) ? tidy(value, 7) : value);
-  return { value, words };
+  if (value === null) return { value, words: '' };
+  if (id === 'nominal') return { value, words: dialled(value, scene.unit) };
+  return { value, words: String(k >= 0 && Number.isFinite(value) ? tidy(value, 7) : value) };
+}
+
+// What a dial has, in full: 1/125, or 2 s; what no dial has is a time.
+function dialled(value, unit) {
+  const seconds = value / perSecond(unit), words = dial(seconds), part = tidy(seconds < 1 ? 1 / seconds : seconds, 9);
+  return Number.isInteger(part) ? `${words}${seconds < 0.3 ? '' : ' s'}` : `${value} ${unit}`;
 }
 
 // Writes the numbers; what is typed stays as it is.

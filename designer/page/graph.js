@@ -82,13 +82,15 @@ export class Graph {
     const defs = svg('defs', {}, root);
     this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
     this.framed = svg('rect', {}, svg('clipPath', { id: 'plot' }, defs));
+    // A trace that goes far below the dark, or above the light, goes through no other chart.
+    this.upper = svg('rect', {}, svg('clipPath', { id: 'upper' }, defs));
     this.grid = svg('g', { class: 'grid', 'aria-hidden': true }, root);
     const inside = svg('g', { 'clip-path': 'url(#plot)', 'aria-hidden': true }, root);
-    const layer = (name, clip) => svg('path', { class: name, ...(clip && { 'clip-path': 'url(#below)' }) }, inside);
+    const layer = (name, clip) => svg('path', { class: name, ...(clip && { 'clip-path': `url(#${clip})` }) }, inside);
     this.paths = {
-      even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'),
-      edge: layer('edge'), curve: layer('curve'), trace: layer('trace'), errors: layer('errors'), dots: layer('dots'),
-      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'),
+      even: layer('share even', 'below'), odd: layer('share odd', 'below'), lamp: layer('lamp'), stems: layer('stems'),
+      edge: layer('edge'), curve: layer('curve'), trace: layer('trace', 'upper'), errors: layer('errors'),
+      dots: layer('dots'),      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'),
       cross: layer('cross'), arms: layer('arms'),
     };
     this.handles = new Handles(this);
@@ -223,7 +225,10 @@ export class Graph {
     if (this.samples) text(LEFT, this.bottom + 14, left, 'start');
     text(right, height - 8, `time (${this.scene.unit})`, 'end');
     const frame = { x: LEFT - 5, y: 0, width: this.width + 10, height };
-    for (const [key, value] of Object.entries(frame)) this.framed.setAttribute(key, value);
+    for (const [key, value] of Object.entries(frame)) {
+      this.framed.setAttribute(key, value);
+      this.upper.setAttribute(key, key === 'height' ? this.bottom + 4 : value);
+    }
   }
 
   // The residual is drawn so many times as high as the trace. Edges within one sample would hide all else.
@@ -253,7 +258,8 @@ export class Graph {
     set(paths.curve, `M${LEFT} ${zero}H${start}${ramps}L${end} ${zero}H${LEFT + this.width}`);
     this.clip.setAttribute('d', `M${start} ${zero}${ramps}L${end} ${zero}Z`);
 
-    const top = f(this.y(this.high)), edge = edgeOf(this.scene), isSeen = edge >= this.range[0] && edge <= this.range[1];
+    const top = f(this.y(this.high)), edge = edgeOf(this.scene);
+    const isSeen = edge >= this.range[0] && edge <= this.range[1];
     set(paths.edge, edge !== null && isSeen ? `M${f(this.x(edge))} ${TOP}V${this.cdfBottom}` : '');
     const shares = ['', ''];
     if (view.edges.length <= MOST_SHARES) {

@@ -13,7 +13,7 @@ const CROSS = 15 / 16;
 /** Within so many pixels of a round place, a handle snaps to it; handles that are nearer than that are in one place. */
 const MAGNET = 8, SAME = 4;
 const POINTS = ['first', 'second'].map((point) => `${point} control point`);
-const NAMES = ['starts to open', 'is open', 'starts to close', 'is closed'];
+const NAMES = ['starts to open at', 'fully open at', 'starts to close at', 'closed at'];
 for (const ramp of ['opening', 'closing']) NAMES.push(...POINTS.map((point) => `${ramp} ramp, ${point}`));
 
 /** Where a handle is: [time in the scene's unit, openness]. */

@@ -95,7 +95,13 @@ function listen() {
   addEventListener('beforeprint', () => {
     tell({ cursor: null });
     drawTicks(model);
+    for (const it of document.querySelectorAll('details.doubt')) it.open = true;
   });
+  $('explain').onclick = () => {
+    $('terms').open = true;
+    $('terms').scrollIntoView();
+    $('terms').querySelector('summary').focus({ preventScroll: true });
+  };
   $('undo').onclick = () => go(-1);
   $('redo').onclick = () => go(1);
   addEventListener('keydown', (event) => {

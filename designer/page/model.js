@@ -158,6 +158,7 @@ function arrived(first) {
     change({ ...fromAddress(location.hash), trace: null });
     waits = false;
     if (model.view) return writeEntry();
+    model.wrong = { ...model.wrong, isLink: true };
   } catch (error) {
     const reason = `The link holds no curve: ${error.message}`;
     model.now ??= first;

@@ -1,7 +1,7 @@
 // Numbers as people write them: 1.5 and 1,5, 1/125, 2.5 ms, 1 MHz, but no separator of thousands, which in one country
 // is the other's decimal mark.
 
-import { perSecond, tidy } from './scene.js';
+import { perSecond, short, tidy } from './scene.js';
 
 const DIGITS = '([+-]?(?:\\d+[.,]?\\d*|[.,]\\d+)(?:e[+-]?\\d+)?)';
 const NUMBER = new RegExp(`^${DIGITS}(?:\\s*/\\s*${DIGITS})?\\s*([a-zµμ%]*)$`, 'i');
@@ -11,10 +11,14 @@ const SUFFIXES = {
   rate: [{ hz: 1, khz: 1e3, mhz: 1e6, ghz: 1e9 }, 'Hz, kHz, MHz or GHz'],
   part: [{ '%': 0.01 }, '%'],
 };
+SUFFIXES.dial = SUFFIXES.time;
+
+/** A speed as a dial has it: from a third of a second on, seconds are what it shows. */
+export const dial = (s) => (s < 0.3 ? `1/${1 / s < 100 ? short(1 / s, 3) : Math.round(1 / s)}` : short(s, 3));
 
 /**
- * The number in `text`; NaN for no text. It is of a `kind`: a `time` in the scene's `unit`, a `rate` in Hz, a `count`,
- * or a `part` of one. An error says why there is none.
+ * The number in `text`; NaN for no text. It is of a `kind`: a `time` in the scene's `unit`, a `dial`'s speed in the
+ * same, of which 500 is 1/500, a `rate` in Hz, a `count`, or a `part` of one. An error says why there is none.
  */
 export function parse(text, kind = 'part', unit = 's') {
   const plain = text.trim().replace(/^[−–]/, '-');
@@ -35,12 +39,14 @@ export function parse(text, kind = 'part', unit = 's') {
   });
   const number = under ? first / second : first;
   if (kind === 'count' && !Number.isInteger(number)) refuse('is no whole number');
-  // A fraction without a unit is a speed, as a dial has it: of a second.
-  const name = suffix.toLowerCase().replace(/[µμ]/, 'u') || (kind === 'time' && under ? 's' : '');
+  const isTime = kind === 'time' || kind === 'dial';
+  // A fraction without a unit is of a second; so is what a dial has, and a whole number on it is the part below 1.
+  const name = suffix.toLowerCase().replace(/[µμ]/, 'u') || (kind === 'dial' || (isTime && under) ? 's' : '');
   if (!name) return under ? tidy(number, 7) : number;
   const [factors, known] = SUFFIXES[kind] ?? refuse('is no number');
   const factor = factors[name] ?? refuse(`has an unknown unit: ${known}`);
-  return tidy(number * factor * (kind === 'time' ? perSecond(unit) : 1));
+  const isPart = kind === 'dial' && !suffix && !under && number > 1 && Number.isInteger(number);
+  return tidy((isPart ? 1 / number : number) * factor * (isTime ? perSecond(unit) : 1));
 }
 
 /** What a field of its own takes when it is changed: a number, or null for none. Other texts are told at the field. */

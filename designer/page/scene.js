@@ -12,9 +12,10 @@ export const NUMBERS = [...TIMES, ...INNER, ...SETTINGS];
 export const CHOICES = { set_up: ['emulated', 'in_path'], sync_falls: [false, true], fully_open: [false, true] };
 /** The numbers that have a field; those that are no times are of another kind. */
 export const FIELDS = NUMBERS.filter((key) => !CHOICES[key]);
-export const KINDS = { triggers: 'count', timer_bits: 'count', timer_hz: 'rate', duty: 'part' };
+export const KINDS = { nominal: 'dial', triggers: 'count', timer_bits: 'count', timer_hz: 'rate', duty: 'part' };
 for (const key of INNER) KINDS[key] = 'part';
-const SPANS = SETTINGS.filter((key) => !CHOICES[key] && !KINDS[key]), REQUIRED = ['triggers', 'min_gap'];
+const SPANS = SETTINGS.filter((key) => !CHOICES[key] && (!KINDS[key] || key === 'nominal'));
+const REQUIRED = ['triggers', 'min_gap'];
 export const LAMP = ['pulse', 'duty', 'min_pulse', 'fully_open'];
 /** What a person has given who gives a whole scene. */
 export const GIVEN = ['name', 'unit', 'lamp', ...SETTINGS.filter((key) => !LAMP.includes(key))];
@@ -179,8 +180,9 @@ export function fromAddress(text) {
 
 function isSpeed(it) {
   const words = [it?.name, it?.kind, ...(it?.doubts ?? [null])];
-  const numbers = [it?.exposure, it?.error, it?.scatter, it?.pulses, it?.dial ?? 0];
-  return words.every((word) => typeof word === 'string') && numbers.every(Number.isFinite);
+  const numbers = [it?.exposure, it?.error, it?.scatter, it?.pulses];
+  const isDial = it?.dial == null || (it.dial > 0 && it.dial < Infinity);
+  return isDial && words.every((it) => typeof it === 'string') && numbers.every((x) => Number.isFinite(x) && x >= 0);
 }
 
 // `exposure: clipped`: what is doubtful, and about which number.

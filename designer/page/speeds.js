@@ -3,9 +3,9 @@
 import { html, render } from 'lit-html';
 import { $, watch } from './dom.js';
 import { copyLink } from './export.js';
-import { doubt, dial, nearest, stops } from './facts.js';
+import { doubt, nearest, stops } from './facts.js';
 import { change, model } from './model.js';
-import { taken } from './numbers.js';
+import { dial, taken } from './numbers.js';
 import { short } from './scene.js';
 import { readTrace, rowFiles } from './trace.js';
 
@@ -25,9 +25,9 @@ export function drawSpeeds({ now: { speeds }, pending }) {
   render(html`<div class="head"><h2 id="speeds-title">Speeds of this shutter</h2><span class="buttons">
       ${button('link', 'Copy link', () => copyLink({ ...model.now, scene: model.good }))}
       ${button('print', 'Print', () => print())}${button('close', 'Close', () => change({ speeds: null }))}</span></div>
-    <div class="scroll" tabindex="0" role="region" aria-label="Table of speeds" id="speeds-table"><table>
+    <div class="scroll" tabindex="0" role="region" aria-label="Table of speeds" id="speeds-table"><table role="table">
       <thead><tr>${COLUMNS.map((name) => html`<th scope="col">${name}</th>`)}</tr></thead>
-      <tbody>${rows.map((row) => line(row, speeds))}</tbody></table></div>
+      <tbody role="rowgroup">${rows.map((row) => line(row, speeds))}</tbody></table></div>
     <p id="speeds-told" role="status" class="note"></p>
     <p class="note">Measured: how long a shutter that is fully open would take for as much light, ± one standard error.
       Nearest full stop: of 1/125, 1/60, 1/30 and so on; what the dial says is yours to tell. Spread: by how much the
@@ -39,8 +39,8 @@ function line(row, speeds) {
   const file = rowFiles.get(row);
   const show = () => readTrace(file, {});
   const link = html`<button type="button" class="plain" title="Show this trace" @click=${show}>${name}</button>`;
-  const of = (cells) => html`<tr><th scope="row">${file ? link : name}</th>
-    ${cells.map((it) => html`<td>${it}</td>`)}</tr>`;
+  const of = (cells) => html`<tr role="row"><th scope="row" role="rowheader">${file ? link : name}</th>
+    ${cells.map((it, i) => html`<td role="cell" data-label=${COLUMNS[i + 1]}><span>${it}</span></td>`)}</tr>`;
   if (!exposure) return of([...Array(6).fill('–'), kind]);
   const speed = nearest(exposure);
   const [by, unit] = exposure < 1 ? [1000, 'ms'] : [1, 's'];
@@ -52,7 +52,7 @@ function line(row, speeds) {
     change({ speeds: speeds.with(speeds.indexOf(row), told) });
   };
   const asked = html`<input aria-label="${name}: on the dial" placeholder="1/…" .value=${row.dial ? dial(row.dial) : ''}
-    @change=${taken('time', says, 's', (x) => x > 0 && x < Infinity)}>`;
+    @change=${taken('dial', says, 's', (x) => x > 0 && x < Infinity)}>`;
   return of([
     html`${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}`, speed ? dial(speed) : '–', asked,
     row.dial ? stops(exposure, row.dial) : '–', pulses > 1 ? `${short(100 * scatter, 2)} %` : '–', pulses, kind,

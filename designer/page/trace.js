@@ -8,6 +8,7 @@ import { units as UNITS } from 'presets';
 import {
   GIVEN, LAMP, SETTINGS, fromScene, inUnit, isCount, isSamePlace, isSameShape, perSecond, short, tidy,
 } from './scene.js';
+import { drawRecord, whole } from './record.js';
 import { cancelFit, fitTrace, parseScene } from './studio.js';
 
 /** Longer files are not read: a trace would fill the page's memory. */
@@ -54,7 +55,11 @@ export function openFiles(files) {
   return hasScene ? refuseFile('A scene in TOML is opened alone: no file beside it was read.') : measure(files);
 }
 
-const refuseFile = (words, pending = null) => tell({ busy: null, note: { words, isWrong: true }, pending });
+// What is wrong with a file: in the bar, or beside the form that tells how it is read.
+const refuseFile = (words, pending = null) =>
+  tell({
+    busy: null, note: { words: pending ? `${pending.name} could not be fitted.` : words, isWrong: true }, pending,
+  });
 
 async function openScene(file) {
   const name = file.name.replace(/\.toml$/i, '');
@@ -96,20 +101,21 @@ export async function readTrace(file, asked, wanted) {
   const there = () => (isCount(model.now.scene.triggers) ? model.now.scene.triggers : 12);
   const triggers = wanted ?? there();
   const shown = model.now.trace, isSame = shown?.file === file, isSameReading = isSame && asked === shown.asked;
-  const before = model.now.scene;
+  const before = model.now.scene, former = [model.pending, shown].find((it) => it?.file === file);
   const busy = Object.assign(computing(`Reading ${file.name}`), { file });
   const answer = await fitted(busy, file, { ...asked, triggers });
   if (!answer) return;
   // Another number was chosen meanwhile.
   if (!wanted && there() !== triggers) return readTrace(file, asked);
   if (answer.Err) return refuseFile(`${file.name}: ${answer.Err}`);
-  const { fit: { Ok: fit, Err }, ...measured } = answer.Ok;
-  const read = { file, name: file.name, asked, measured };
+  const { raw, fit: { Ok: fit, Err }, ...measured } = answer.Ok;
+  const read = { file, name: file.name, asked, measured, record: whole(raw, asked, former) };
   // What cannot be fitted as it is read can be read otherwise.
-  if (!fit) return refuseFile(`${file.name}: ${Err.text}`, { ...read, words: Err.text, mend: Err.mend });
+  if (!fit) return refuseFile('', { ...read, words: Err.text, mend: Err.mend });
   tell({ busy: null });
   const give = () => {
-    const scene = withFit({ ...model.now.scene, triggers }, file.name.replace(/\.\w+$/, ''), fit, isSame, isSameReading);
+    const name = file.name.replace(/\.\w+$/, '');
+    const scene = withFit({ ...model.now.scene, triggers }, name, fit, isSame, isSameReading);
     change({ scene, trace: { ...read, fit, scene }, speeds: null });
   };
   // What a hand has moved on this trace is not taken away unasked, nor what it moves meanwhile.
@@ -186,6 +192,7 @@ export function drawTrace({ now: { scene, trace }, pending }) {
   const isHand = trace && !isSameShape(trace.scene, scene);
   if (!isNewTrace(trace, pending, unit, triggers, isHand)) return;
   render(panel(pending ?? trace, trace, pending, isHand, scene), $('trace'));
+  if (pending) $('reading').open = true;
 }
 
 const press = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
@@ -193,17 +200,17 @@ const note = (words) => html`<p class="note">${words}</p>`;
 
 function panel(shown, trace, pending, isHand, scene) {
   if (!shown) {
-    return note('Open or drop the CSV of an oscilloscope or a shutter tester: the simplest curve that serves is fitted '
-      + 'to it. Several make a table of speeds. Nothing leaves this page.');
+    return note('Open or drop a trace: the CSV of an oscilloscope or a shutter tester, or the WAV of a sound card. The '
+      + 'simplest curve that serves is fitted to it. Several make a table of speeds. Nothing leaves this page.');
   }
   const { file, measured, fit } = shown;
   const another = () => press('Open another file …', () => $('file').click());
   const head = pending
-    ? [html`<p class="wrong">${pending.name}: ${pending.words} ${leads(pending.mend) ?? another()}</p>`,
+    ? [html`<p class="wrong" tabindex="-1">${pending.name}: ${pending.words} ${leads(pending.mend) ?? another()}</p>`,
       trace ? note(`The trace of ${trace.name} stays on the graph.`) : nothing]
     : html`<p class="buttons">${fit.warnings.map(({ mend }) => leads(mend))}</p>`;
   return html`${head}
-    <details id="reading" ?open=${Boolean(pending)}><summary>How the file is read</summary>
+    <details id="reading"><summary>How the file is read</summary>
       ${previewTable(measured)}
       ${file ? readingForm(shown) : note('To read it otherwise, open the file again.')}
     </details>
@@ -233,7 +240,7 @@ function previewTable({ names, rows, read }) {
     <tbody>${rows.map(row)}</tbody></table></div>`;
 }
 
-function readingForm({ file, asked, measured: { names, read }, fit }) {
+function readingForm({ file, asked, record, measured: { names, read }, fit }) {
   // What was chosen before may still be read.
   let wanted = asked;
   const again = (changes) => readTrace(file, (wanted = { ...wanted, ...changes }));
@@ -263,7 +270,8 @@ function readingForm({ file, asked, measured: { names, read }, fit }) {
   const rate = asked.rate ?? (read?.clock.rate && tidy(read.clock.rate, 7));
   const all = fit?.json.pulses, pulses = Math.min(all ?? asked.frame ?? 1, 200);
   const frames = Array.from({ length: pulses }, (_, i) => [i + 1, `${i + 1} of ${all ?? '?'}`]);
-  return html`<fieldset class="reading"><legend class="sr">How the file is read</legend>
+  return html`${drawRecord(record, asked, unit, (from, to) => again({ from, to }))}
+    <fieldset class="reading"><legend class="sr">How the file is read</legend>
     ${count ? [choice('time', 'time', [['', 'none: by the rate'], ...columns], time, both),
       choice('light', 'signal', columns, signal, both),
       choice('sync', 'sync', [['', 'none'], ...columns], asked.sync ?? '', (it) => ({ sync: Number(it) || null }))]

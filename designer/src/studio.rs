@@ -8,7 +8,7 @@ use shutter::planned::Planned;
 use shutter::scene;
 use shutter::times::Times;
 use shutter_fit::delay::{self, Sync};
-use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal};
+use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Trace};
 use shutter_fit::unit::Unit;
 use shutter_fit::{From, Options, report, speed};
 
@@ -97,6 +97,8 @@ struct Measured {
     #[serde(flatten)]
     preview: Preview,
     read: Option<Reading>,
+    /// What was read, as (seconds of the file, signal).
+    raw: Vec<[f64; 2]>,
     fit: Result<Fitted, Told>,
 }
 
@@ -124,7 +126,7 @@ struct Fitted {
     scatter: f64,
     warnings: Vec<Told>,
     /// The trace as (time in seconds of the scene, openness, residual).
-    samples: Vec<(f64, f64, f64)>,
+    samples: Vec<[f64; 3]>,
 }
 
 /// A trace's own triggers.
@@ -152,10 +154,12 @@ fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(
     let recording = trace::open(&bytes, &options);
     drop(bytes);
     let read = recording.as_ref().ok().map(|recording| recording.reading.clone());
+    let pairs = |trace: &Trace| trace.times.iter().zip(&trace.values).map(|(t, v)| [*t, *v]).collect();
+    let raw = recording.as_ref().map_or(Vec::new(), |recording| fewer(pairs(&recording.trace)));
     let fit = recording
         .and_then(|recording| fitted(name, recording, asked, progress))
         .map_err(|refusal| words::refusal(&refusal, asked.light != Light::Auto));
-    Measured { preview, read, fit }
+    Measured { preview, read, raw, fit }
 }
 
 fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Fitted, Refusal> {
@@ -185,7 +189,7 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
     let start = signal.curve.start - own.as_ref().map_or(0.0, |own| own.until_curve);
     let samples = fit.samples.times.iter().zip(&fit.samples.values).map(|(&t, &v)| {
         let residual = (v - fit.value(t)) / signal.gain;
-        (t - start, (v - signal.dark) / signal.gain, residual)
+        [t - start, (v - signal.dark) / signal.gain, residual]
     });
     Ok(Fitted {
         scene: scene::parse(&text).map_err(|fault| no_scene(&fault))?,
@@ -205,16 +209,16 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
 }
 
 /// Of many samples the least and the greatest of neighbours.
-fn fewer(samples: Vec<(f64, f64, f64)>) -> Vec<(f64, f64, f64)> {
+fn fewer<const N: usize>(samples: Vec<[f64; N]>) -> Vec<[f64; N]> {
     if samples.len() <= MOST {
         return samples;
     }
     let together = samples.len().div_ceil(MOST / 2);
-    let ends = |few: &[(f64, f64, f64)]| {
-        let by_value = |a: &&(f64, f64, f64), b: &&(f64, f64, f64)| a.1.total_cmp(&b.1);
+    let ends = |few: &[[f64; N]]| {
+        let by_value = |a: &&[f64; N], b: &&[f64; N]| a[1].total_cmp(&b[1]);
         let ends = [few.iter().min_by(by_value), few.iter().max_by(by_value)];
-        let mut ends = ends.map(|end| end.copied().unwrap_or_default());
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut ends = ends.map(|end| end.copied().unwrap_or([0.0; N]));
+        ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
         ends
     };
     samples.chunks(together).flat_map(ends).collect()

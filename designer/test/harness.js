@@ -110,7 +110,7 @@ export const ended = () => new Promise((done) => page.once('workerdestroyed', do
 /** The page with what a test asks of it. */
 export function extend(page) {
   const on = (sel, act, ...args) => page.$eval(sel, act, ...args);
-  page.setDefaultTimeout?.(60_000);
+  page.setDefaultTimeout?.(Number(process.env.PATIENCE ?? 60_000));
   return Object.assign(page, {
     text: (sel) => on(sel, (it) => it.textContent),
     attribute: (sel, name) => on(sel, (it, name) => it.getAttribute(name), name),

@@ -15,6 +15,7 @@ import {
 // Everything within one ramp or the other: the most that a curve can ask of the crate.
 const ALL_RAMP = '#name=ramps&unit=ms&times=0,5,5,10&inner=0.2,0,0.3,1,0.7,1,0.8,0'
   + '&triggers=256&timer_hz=10000000&min_gap=0&set_up=emulated';
+const SPEED = '{"name":"a","kind":"b","doubts":[],"exposure":1,"error":0,"scatter":0,"pulses":1}';
 const TRIANGLE = '#name=triangle&unit=ms&times=0,50,50,100&triggers=20&timer_hz=1000000&min_gap=2&set_up=emulated';
 
 setUp();
@@ -68,7 +69,7 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
   const one = /^flashes 0 and 1 come 0 ms apart, and 333\.3 ms is required; 1 flash keeps that/;
   for (const [id, text, message] of [
     ['t1', '2', outside], ['y6', '-1', closes], ['open_end', 'NaN', /“NaN” is no number/],
-    ['close_end', '1e400', /^is closed: a finite number is required/], ['close_start', '-4', /times out of order/],
+    ['close_end', '1e400', /^closed at: a finite number is required/], ['close_start', '-4', /times out of order/],
     ['triggers', '0', /^how many: a whole number from 1 to 10000/], ['triggers', '', /^how many: a number is required/],
     ['triggers', '12.5', /“12\.5” is no whole number/], ['close_end', '0', /^times out of order/],
     ['min_gap', '-1', /^least gap: 0 or more is required/], ['min_gap', '5', /0 and 1 come .* apart, and 5 ms is/],
@@ -102,7 +103,8 @@ test('numbers are read as people write them, and any other is refused', async ()
   await open();
   for (const [id, text, value] of [
     ['min_gap', '0,25', 0.25], ['min_gap', '0.125', 0.125], ['open_start', '−0,5', -0.5], ['open_start', '-.5e0', -0.5],
-    ['min_gap', '0', 0], ['nominal', '1/125 s', 8], ['timer_hz', '1 MHz', 1_000_000], ['timer_hz', '2,5 kHz', 2500],
+    ['min_gap', '0', 0], ['nominal', '1/125 s', 8], ['nominal', '500', 2], ['nominal', '1/500', 2], ['nominal', '8 ms', 8],
+    ['nominal', '2 s', 2000], ['nominal', '0.5', 500], ['timer_hz', '1 MHz', 1_000_000], ['timer_hz', '2,5 kHz', 2500],
     ['open_end', '2400µs', 2.4], ['min_gap', '5e4 ns', 0.05], ['timer_hz', '32.768 kHz', 32768],
     ...['12 000 us', '1 1/2 s', '1/1 000', '1\u202f5', '1.0,5', '1,2.5'].map((no) => ['min_gap', no, 'is no number']),
     ['open_end', '1,500 ms', 'may mean 1.5 or 1500:'], ['open_end', '1/1,000', 'may mean 1 or 1000:'],
@@ -488,6 +490,53 @@ test('a channel of the sync gives the delay, and its way; what is outside of a w
   assert.match(await copied('toml'), /^delay = (2\.9|3\.0)\d*\n(.*\n)*sync_falls = true$/m);
 });
 
+test('a window is dragged on the whole record, in the file’s own time', async () => {
+  await open('');
+  const two = trace({ samples: 4000, more: (t) => (t > 20 && t < 24 ? 0.6 : 0) });
+  await drop(['two.csv', two.replaceAll(/^[\d.]+/gm, (t) => (Number(t) + 5).toFixed(5))]);
+  await isRead();
+  const whole = await page.attribute('.record path', 'd');
+  await page.$eval('#reading', (it) => (it.open = true));
+  const ends = await page.$$eval('.record span', (all) => [all[0].textContent, all.at(-1).textContent]);
+  assert.deepEqual(ends, ['5', '5.04']);
+  const sweep = async (from, to) => {
+    await page.$eval('.record', (it) => it.scrollIntoView({ block: 'center' }));
+    const { x, y, width, height } = await page.box('.record svg');
+    await page.mouse.move(x + from * width, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + to * width, y + height / 2, { steps: 3 });
+    await page.mouse.up();
+  };
+  const asked = () => page.evaluate(() => {
+    const { now: { trace }, pending } = designer.model;
+    return (pending ?? trace).asked;
+  });
+  // From right to left as well.
+  await sweep(0.4, 0.01);
+  await page.until(() => designer.model.now.trace.asked.to);
+  const { from, to } = await asked();
+  assert.ok(Math.abs(from - 5.0004) < 2e-4 && Math.abs(to - 5.016) < 2e-4, `${from} ${to}`);
+  assert.equal(await page.attribute('.record path', 'd'), whole, 'all of it stays to be chosen from');
+  // A part without a pulse is refused, and another is dragged there.
+  await sweep(0.7, 0.95);
+  await isRefused();
+  await sweep(0.01, 0.4);
+  await isRead();
+  await page.push('take the whole record');
+  await page.until(() => designer.model.now.trace.asked.to === null);
+});
+
+test('the words are explained on the page itself', async () => {
+  await open('');
+  await page.push('What do the words mean?');
+  const told = await page.text('#terms');
+  for (const word of ['T1', 'T2', 'T3', 'TE', 'TV', 'efficiency', 'Emulated', 'In the path']) {
+    assert.ok(told.includes(word), word);
+  }
+  assert.ok(await page.isSeen('#terms svg'));
+  for (const sel of ['#trace', '#drop']) assert.match(await page.text(sel), /WAV/);
+});
+
 test('a scene in TOML is as it was written, and what is given in it stays; a broken one is refused', async () => {
   await open();
   const text = 'unit = "ms"\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 15\ntriggers = 7\n'
@@ -525,7 +574,8 @@ test('broken and huge traces get a message, and the page goes on', async () => {
   const before = await copied('json');
   const told = async (message) => {
     await page.waitForSelector('#problem:not([hidden])');
-    assert.match(await page.text('#problem'), message);
+    const where = await page.evaluate(() => (designer.model.pending ? '#trace .wrong' : '#problem'));
+    assert.match(await page.text(where), message);
     await page.push('Close');
   };
   for (const [text, message] of [
@@ -556,6 +606,10 @@ test('links of garbage get a message', async () => {
   const garbage = [
     '#%', '#%E0%A4%A', '#<script>alert(1)</script>', '#times=1', '#times=0,1,2,3', '#' + 'a'.repeat(100_000),
     '#times=,,,&triggers=&timer_hz=&min_gap=', SOFT.replace('emulated', 'both'), `${SOFT}&speeds=[{}]`,
+    ...['"dial":-3', '"dial":0', '"exposure":-1', '"error":null'].map((wrong) =>
+      `${SOFT}&speeds=[${SPEED.replace('}', `,${wrong}}`)}]`),
+    ...['3,2,1,0', '0,0,0,0', '0,2,1,3', '1e39,2e39,3e39,4e39'].map((times) => SOFT.replace('0,2.5,7.5,10', times)),
+    `${SOFT}&measured=1,2`, SOFT.replace('0.9,0', '0.9,2'), SOFT.replace('unit=ms', 'unit='),
     SOFT.replace('triggers=12', 'triggers=12.5'), ALL_RAMP.replace('unit=ms', 'unit=parsec'),
     ...['NaN', '1e308', '-Infinity'].map((x) => ALL_RAMP.replaceAll(/\d+(\.\d+)?/g, x)),
     ALL_RAMP.replace('triggers=256', 'triggers=4294967295'),
@@ -564,12 +618,15 @@ test('links of garbage get a message', async () => {
     // As the page's first address, or typed into it.
     if (i % 4 === 0) await open(hash);
     else await page.evaluate((hash) => (location.hash = hash), hash);
-    await page.until(() => document.querySelector('#problem:not([hidden])')?.textContent.length > 10);
+    await page.until(() => document.querySelector('#problem:not([hidden])')?.textContent.length > 10)
+      .catch(() => assert.fail(`nothing is told of ${hash.slice(0, 200)}`));
     // Nothing but the link's own curve is shown.
     if (await page.isSeen('#graph svg')) assert.match(await curve(), /^M[\d .,LCHVM-]+$/, hash.slice(0, 80));
     else assert.ok(!(await page.isSeen('#code')) && (await page.isDisabled('#link')));
     assert.ok(await page.isDisabled('#copy'));
-    // A preset leads out of it.
+    // A button leads out of it where a curve is lacking, and a preset anywhere.
+    const ways = await page.$$eval('#problem button', (all) => all.map((it) => it.textContent));
+    if (!(await page.isSeen('#graph svg'))) assert.deepEqual(ways, ['Go on without it'], hash.slice(0, 80));
     await preset('leaf');
     assert.ok(!(await page.isSeen('#problem')));
   }
@@ -787,7 +844,8 @@ test('several traces are a table alone, which prints, and a link that holds it',
   assert.match(bounce[7], /the trace itself/);
   assert.match(diary[7], /^not measured: .*no row of numbers in it/);
   // Whoever knows what the dial says tells it.
-  await page.fill('#speeds-table input', '1/250');
+  await page.fill('#speeds-table input', '250');
+  assert.equal(await page.value('#speeds-table input'), '1/250');
   const told = await lines();
   assert.match(told[0][4], /^[+−±]0\.0\d EV$/);
   const link = await copiedBy(() => page.click('#speeds-link'));
