@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
-# Runs a command with what the firmware needs: a compiler that has the targets, its clippy, QEMU, a disassembler
-# and the log decoder.
+# Runs a command with what the firmware needs: a compiler that has the targets, its clippy, QEMU and the log decoder.
 #
 #   .ci/thumb.sh cargo trigger
 #   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
 #   TOOLS= .ci/thumb.sh COMMAND                without the log decoder
 #
-# What the machine has is used as it is (`rustup target add ...`, the system's qemu-system-arm,
-# llvm-objdump and defmt-print). What is missing is unpacked from Debian's packages, or built, into a
-# cache folder; nothing is installed. The settings last for the command alone.
+# What the machine has is used as it is (`rustup target add ...`, the system's qemu-system-arm and defmt-print). What is
+# missing is unpacked from Debian's packages, or built, into a cache folder; nothing is installed. The settings last for
+# the command alone.
 set -euo pipefail
 
 read -ra targets <<<"${TARGETS:-thumbv7em-none-eabihf thumbv6m-none-eabi}"
@@ -170,7 +169,7 @@ for target in "${targets[@]}"; do
     if ! command -v qemu-riscv32 >/dev/null && [ ! -x "$bin/qemu-riscv32" ]; then
         unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" \
             "13 MB to fetch, 100 MB unpacked, some seconds" qemu-user
-        for emulator in i386 ppc riscv32 riscv64 s390x; do
+        for emulator in riscv32 s390x; do
             wrap "$bin/qemu-$emulator" \
                 "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
                 "$cache/qemu-user/usr/bin/qemu-$emulator"
@@ -178,19 +177,6 @@ for target in "${targets[@]}"; do
     fi
     break
 done
-
-if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
-    tools=$(rustc --print sysroot)/lib/rustlib/$host/bin/llvm-objdump
-    if [ -x "$tools" ]; then
-        mkdir -p "$bin" && ln -sf "$tools" "$bin/llvm-objdump"
-    else
-        unpack llvm+ "llvm-objdump: rustup component add llvm-tools, or Debian's package llvm" \
-            "34 MB to fetch, 150 MB unpacked, some seconds" llvm
-        # The unversioned package's command is a link to the versioned one's.
-        objdump=("$cache"/llvm/usr/lib/llvm-*/bin/llvm-objdump)
-        wrap "$bin/llvm-objdump" "$cache/llvm/usr/lib/$(uname -m)-linux-gnu" "${objdump[0]}"
-    fi
-fi
 
 if [ "${TOOLS-log}" ] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
     say "building defmt-print, which prints the log: a minute ..."

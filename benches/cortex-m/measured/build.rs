@@ -1,7 +1,17 @@
-//! The curves, as Rust; and the folder of the board's `memory.x`: the crate's, or this one for the board with a
-//! Cortex-M33.
+//! The curves of the tests' reference data and their hard cases, as Rust, each with its hard inputs; and the folder of
+//! the board's `memory.x`: the crate's, or this one for the board with a Cortex-M33.
 
-use std::{env, fs, path::PathBuf};
+use std::{env, fmt::Write, fs, path::PathBuf};
+
+use support::cases::CASES;
+use support::curves::{Kind, hard_us, named};
+use support::oracle::{Curve, Exact};
+
+#[path = "../../../tests/support/mod.rs"]
+mod support;
+
+/// The curves with columns of their own in the report. They come first, then the other typical ones.
+const FIRST: [&str; 4] = ["rman_soft", "raised_cosine", "trapezoid", "box"];
 
 fn main() {
     let here = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap());
@@ -11,8 +21,20 @@ fn main() {
     }
     let map = if target.starts_with("thumbv8m") { here } else { here.join("../../..") };
     println!("cargo:rustc-link-search={}", map.display());
-    println!("cargo:rerun-if-changed={}", map.join("memory.x").display());
 
-    let path = PathBuf::from(env::var("OUT_DIR").unwrap()).join("curves.rs");
-    fs::write(path, hardest::CURVES).unwrap();
+    let cases = CASES.iter().map(|case| (case.name, false, case.curve()));
+    let data = named().into_iter().map(|c| (c.name, c.kind == Kind::Typical, c.curve));
+    let mut curves: Vec<_> = data.chain(cases).collect();
+    curves.sort_by_key(|(name, is_typical, _)| {
+        (FIRST.iter().position(|first| first == name).unwrap_or(FIRST.len()), !is_typical)
+    });
+    let typical = curves.iter().filter(|(_, is_typical, _)| *is_typical).count();
+    let mut out = format!("pub const TYPICAL: usize = {typical};\npub const CURVES: &[Curve] = &[\n");
+    for (name, _, curve) in curves {
+        let hard = hard_us(&Exact::new(&curve), 0, 128);
+        let Curve { opening, closing, .. } = curve;
+        writeln!(out, "Curve {{ name: {name:?}, opening: {opening:?}, closing: {closing:?}, hard: &{hard:?} }},")
+            .unwrap();
+    }
+    fs::write(PathBuf::from(env::var("OUT_DIR").unwrap()).join("curves.rs"), out + "];\n").unwrap();
 }

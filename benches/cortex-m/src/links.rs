@@ -1,7 +1,7 @@
 //! No panic: a program that links only if none can be reached, and a control that must not link, both built at once.
 
 use crate::Result;
-use crate::firmware::{M0, M4F, S390X, cargo};
+use crate::firmware::{M0, M4F, S390X};
 
 /// The function that the programs' panic handler calls, and that does not exist.
 const MISSING: &str = "undefined symbol: a_panic_can_be_reached";
@@ -14,7 +14,7 @@ pub fn run() -> Result {
     for (core, levels) in [(M4F, all), (M0, &["3", "z"]), (S390X, &["3", "z"])] {
         for &level in levels {
             let named = format!("{}, opt-level {level}", core.name);
-            let mut cargo = cargo(core, "no_panic", level);
+            let mut cargo = core.cargo("no_panic", level);
             let built = cargo.args(["--bin", "panic", "--keep-going"]).output()?;
             let errors = String::from_utf8_lossy(&built.stderr);
             let failed = |program: &str| errors.contains(&format!("(bin \"{program}\")"));

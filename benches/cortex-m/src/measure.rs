@@ -1,178 +1,177 @@
 //! All that is measured on one core.
 
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 use std::fs::{File, write};
 
-use measured::{CURVE_BYTES, CURVES, Function, ROWS, Series, TICK_HZ, TRAPEZOID, TYPICAL};
+use measured::{CURVE_BYTES, CURVES, DEFAULT, Function, MOST, MOST_TRIGGERS, TICK_HZ, TRAPEZOID, TYPICAL};
+use measured::{trigger, uniform};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
-use crate::disassembly::Disassembly;
-use crate::firmware::{Core, build, output};
-use crate::trace::{Call, replay};
+use crate::firmware::{Core, M4F};
+use crate::support::curves::Rng;
+use crate::trace::{Call, Run, run};
 
-use Function::{Construct, InverseCdf, SqrtFpu, Static, TickStep};
+use Function::{Construct, InverseCdf, Schedule, SqrtFpu, Static, Tick};
 
-/// What functions are measured on.
-#[derive(Clone, Copy, PartialEq)]
-pub enum On {
-    /// Uniform inputs, on the curves with rows of their own.
-    Rows,
-    /// All that there is: hard inputs on all curves, too.
-    All,
+/// A function with so many octaves; what has none counts as having [`DEFAULT`].
+pub type Of = (Function, usize);
+
+/// A series of calls on one curve, and what each took.
+struct Series {
+    of: Of,
+    curve: usize,
+    is_hard: bool,
+    us: Vec<f32>,
+    calls: Vec<Call>,
+    stack: u32,
 }
 
-/// The series of these functions, with each of these numbers of octaves.
-pub fn series(functions: &[Function], octaves: &[usize], on: On) -> Vec<Series> {
+pub struct Measured {
+    pub name: &'static str,
+    /// The bytes of `.data` and `.bss`.
+    pub statics: u64,
+    series: Vec<Series>,
+    ran: std::collections::HashMap<u32, BTreeMap<u32, u32>>,
+}
+
+impl Measured {
+    /// Of these functions on the first so many curves at uniform fractions, and on a Cortex-M4F on all at hard ones.
+    pub fn new(core: Core, functions: &[Of], curves: usize) -> Result<Self> {
+        eprintln!("measuring a {} ...", core.name);
+        let elf = core.build("cost")?;
+        let built = core.output(&elf)?;
+        if built.len() != CURVE_BYTES.iter().sum::<usize>() * CURVES.len() {
+            return Err("the firmware's curves are not of the size that they have here".into());
+        }
+        let mut series = series(core, functions, curves);
+        let asked = series.iter().flat_map(|series| {
+            let head = [series.of.0 as u32, series.of.1 as u32, series.curve as u32, series.us.len() as u32];
+            head.into_iter().chain(series.us.iter().map(|u| u.to_bits())).flat_map(u32::to_le_bytes)
+        });
+        let input = elf.with_extension("input");
+        write(&input, built.into_iter().chain(asked).collect::<Vec<_>>())?;
+        let Run { calls, ran, output, statics } = run(core, &elf, File::open(&input)?)?;
+        let (mut calls, mut stacks) = (calls.into_iter(), output.chunks_exact(4));
+        for series in &mut series {
+            series.calls = calls.by_ref().take(series.us.len()).collect();
+            series.stack = u32::from_le_bytes(stacks.next().ok_or("the firmware ran fewer series")?.try_into()?);
+        }
+        if calls.next().is_some() || series.iter().any(|series| series.calls.len() != series.us.len()) {
+            return Err("the firmware ran other calls than it was asked for".into());
+        }
+        Ok(Self { name: core.name, statics, series, ran })
+    }
+
+    fn all(&self, of: Of) -> impl Iterator<Item = &Series> {
+        self.series.iter().filter(move |series| series.of == of)
+    }
+
+    /// The mean instructions, and on a Cortex-M4F cycles, at uniform fractions of a curve; nothing where they were not
+    /// measured.
+    pub fn mean(&self, of: Of, curve: usize) -> Option<[f64; 2]> {
+        let calls = &self.all(of).find(|series| series.curve == curve && !series.is_hard)?.calls;
+        let mean = |of: fn(&Call) -> u32| calls.iter().map(|c| f64::from(of(c))).sum::<f64>() / calls.len() as f64;
+        Some([mean(|call| call.instructions), mean(|call| call.cycles)])
+    }
+
+    /// The most cycles of a call at hard fractions of any curve, or of one that took no search; with its curve and
+    /// fraction.
+    pub fn worst(&self, of: Of, is_direct: bool) -> Option<(u32, String)> {
+        let calls = self.all(of).filter(|series| series.is_hard).flat_map(|series| {
+            let direct = if is_direct { direct(series) } else { vec![true; series.us.len()] };
+            let calls = series.us.iter().zip(&series.calls).zip(direct).filter(|(_, counts)| *counts);
+            calls.map(|((u, call), _)| (call.cycles, format!("{}, u = {u}", CURVES[series.curve].name)))
+        });
+        calls.max()
+    }
+
+    /// The bytes of the functions that it ran, with their literals.
+    pub fn code(&self, of: Of) -> Option<u32> {
+        Some(self.ran[&self.all(of).next()?.calls[0].called].values().sum())
+    }
+
+    /// The most bytes of stack.
+    pub fn stack(&self, of: Of) -> Option<u32> {
+        self.all(of).map(|series| series.stack).max()
+    }
+}
+
+fn series(core: Core, functions: &[Of], curves: usize) -> Vec<Series> {
     let mut all = Vec::new();
-    for (function, octaves) in functions.iter().flat_map(|f| octaves.iter().map(|c| (*f, *c))) {
+    for &(function, octaves) in functions.iter().filter(|(function, _)| *function != SqrtFpu || core.has_fpu()) {
         for is_hard in [false, true] {
-            let curves = match (function, on, is_hard) {
-                (_, On::Rows, true) | (Construct, _, true) => 0,
-                (Construct, ..) => 1,
-                (_, On::Rows, _) => ROWS.len(),
-                (Static, ..) | (_, _, false) => TYPICAL,
-                _ => CURVES.len(),
+            let curves = match (is_hard, function) {
+                (false, Construct) => 0..1,
+                (false, _) => 0..curves,
+                (true, Construct) => 0..0,
+                (true, Static) => 0..TYPICAL,
+                (true, _) => 0..CURVES.len(),
             };
-            let curves = (0..curves).filter(|curve| !function.is_for_straight_ramps() || *curve == TRAPEZOID);
-            all.extend(curves.map(|curve| Series { function, octaves, is_hard, curve }));
+            let is_straight = function.is_for_straight_ramps();
+            for curve in curves.filter(|curve| (!is_hard || core == M4F) && (!is_straight || *curve == TRAPEZOID)) {
+                let us = match (function, is_hard) {
+                    (Construct | Schedule, _) => vec![0.0],
+                    (_, false) => (0..512).map(uniform).collect(),
+                    (_, true) => hard(curve, octaves),
+                };
+                all.push(Series { of: (function, octaves), curve, is_hard, us, calls: Vec::new(), stack: 0 });
+            }
         }
     }
     all
 }
 
-/// A series, and what each of its calls took.
-struct Ran {
-    series: Series,
-    calls: Vec<Call>,
-}
-
-impl Ran {
-    fn mean(&self, of: fn(&Call) -> u32) -> f64 {
-        self.calls.iter().map(|call| f64::from(of(call))).sum::<f64>() / self.calls.len() as f64
-    }
-
-    fn name(&self) -> &'static str {
-        CURVES[self.series.curve].name
-    }
-}
-
-pub struct Measured {
-    pub name: &'static str,
-    pub code: Disassembly,
-    ran: Vec<Ran>,
-}
-
-/// Of a function with so many octaves; nothing where it was not measured.
-impl Measured {
-    pub fn new(core: Core, series: &[Series]) -> Result<Self> {
-        eprintln!("measuring a {} ...", core.name);
-        let has = |series: &&Series| series.function != SqrtFpu || core.has_fpu();
-        let series: Vec<Series> = series.iter().filter(has).copied().collect();
-        let elf = build(core, "cost")?;
-        let (code, curves) = (Disassembly::of(core, &elf)?, output(core, &elf)?);
-        if curves.len() != CURVE_BYTES.iter().sum::<usize>() * CURVES.len() {
-            return Err("the firmware's curves are not of the size that they have here".into());
-        }
-        let input = elf.with_extension("input");
-        let asked: Vec<u8> = series.iter().flat_map(|series| series.to_bytes()).collect();
-        write(&input, [curves, asked].concat())?;
-        let calls = replay(core, &elf, &code, File::open(&input)?)?;
-        if calls.len() != series.iter().map(|series| series.calls()).sum::<usize>() {
-            return Err("the firmware ran other series than planned".into());
-        }
-        let mut calls = calls.into_iter();
-        let ran = series.into_iter().map(|series| Ran { series, calls: calls.by_ref().take(series.calls()).collect() });
-        Ok(Self { name: core.name, code, ran: ran.collect() })
-    }
-
-    /// The series over hard inputs, or over uniform ones.
-    fn over(&self, function: Function, octaves: usize, is_hard: bool) -> impl Iterator<Item = &Ran> {
-        let key = (function, octaves, is_hard);
-        self.ran.iter().filter(move |Ran { series: s, .. }| (s.function, s.octaves, s.is_hard) == key)
-    }
-
-    /// The mean over uniform inputs on one of the curves.
-    pub fn cycles(&self, function: Function, curve: usize, octaves: usize) -> Option<f64> {
-        Some(self.on(function, curve, octaves)?.mean(|call| call.cycles))
-    }
-
-    pub fn instructions(&self, function: Function, curve: usize, octaves: usize) -> Option<f64> {
-        Some(self.on(function, curve, octaves)?.mean(|call| call.instructions))
-    }
-
-    fn on(&self, function: Function, curve: usize, octaves: usize) -> Option<&Ran> {
-        self.over(function, octaves, false).find(|ran| ran.series.curve == curve)
-    }
-
-    /// The mean cycles over all typical curves, and the share of the calls whose answers took a search.
-    pub fn typical(&self, function: Function, octaves: usize) -> Option<[f64; 2]> {
-        let each = self.over(function, octaves, false).map(|ran| {
-            let asked = asked(ran.series);
-            let searched = asked.iter().filter(|(_, is_direct)| !is_direct).count();
-            [ran.mean(|call| call.cycles), searched as f64 / asked.len() as f64]
+/// The hard fractions of a curve, and those for which the mass is evaluated most often: the first few of 20 000, and of
+/// those around them, ever nearer.
+fn hard(curve: usize, octaves: usize) -> Vec<f32> {
+    let evaluations: Box<dyn Fn(f32) -> u32> = match octaves {
+        0 => evaluations::<0>(curve),
+        4 => evaluations::<4>(curve),
+        _ => evaluations::<8>(curve),
+    };
+    let mut rng = Rng::new(0, 0);
+    let tail = |rng: &mut Rng| (rng.unit() * 2f64.powf(-24.0 * rng.unit())) as f32;
+    let hard = CURVES[curve].hard.to_vec();
+    let mut us: Vec<_> = (0..20_000).map(|i| if i % 2 == 0 { tail(&mut rng) } else { 1.0 - tail(&mut rng) }).collect();
+    us.extend(&hard);
+    for reach in [65536.0, 8192.0, 1024.0, 128.0, 16.0, 0.0] {
+        us.sort_by_cached_key(|u| (Reverse(evaluations(*u)), u.to_bits()));
+        us.dedup();
+        us.truncate(32);
+        let around = us.iter().flat_map(|u| [*u; 400]).map(|u| {
+            let steps = rng.between(-reach, reach) as i32;
+            f32::from_bits(u.to_bits().saturating_add_signed(steps))
         });
-        let each: Vec<_> = each.collect();
-        let mean = |i: usize| each.iter().map(|figures| figures[i]).sum::<f64>() / TYPICAL as f64;
-        (each.len() == TYPICAL).then(|| [mean(0), mean(1)])
+        let around: Vec<f32> = around.filter(|u| *u <= 1.0).collect();
+        us.extend(around);
     }
-
-    /// The most cycles of a call that was not searched for, over all curves with hard inputs, if they were measured,
-    /// and the typical ones with uniform ones; with its curve and its fraction.
-    pub fn worst_direct(&self, function: Function, octaves: usize) -> Option<(u32, String)> {
-        self.over(function, octaves, true).next()?;
-        let ran = [false, true].into_iter().flat_map(|is_hard| self.over(function, octaves, is_hard));
-        let calls = ran.flat_map(|ran| {
-            let calls = asked(ran.series).into_iter().zip(&ran.calls);
-            calls.map(|((u, is_direct), call)| (is_direct, call.cycles, ran.name(), u))
-        });
-        let (_, cycles, name, u) = calls.filter(|call| call.0).max_by_key(|call| call.1)?;
-        Some((cycles, format!("{name}, u = {u}")))
-    }
-
-    /// The most cycles of a call over the hard inputs on any curve, and the curve.
-    pub fn worst(&self, function: Function, octaves: usize) -> Option<(u32, String)> {
-        let calls = self.over(function, octaves, true).flat_map(|ran| ran.calls.iter().map(|call| (call, ran.name())));
-        calls.map(|(call, name)| (call.cycles, name.into())).max()
-    }
-
-    pub fn code_bytes(&self, function: Function, octaves: usize) -> Option<u32> {
-        Some(self.code.code_bytes(self.instance(function, octaves)?))
-    }
-
-    /// The stack of a call as the compiler says.
-    pub fn stack_bytes(&self, function: Function, octaves: usize) -> Option<u32> {
-        Some(self.code.stack_bytes(self.instance(function, octaves)?))
-    }
-
-    fn instance(&self, function: Function, octaves: usize) -> Option<u32> {
-        Some(self.over(function, octaves, false).next()?.calls[0].called)
-    }
+    us.truncate(32);
+    us.extend(hard);
+    us.truncate(MOST);
+    us
 }
 
-/// The calls of a series, in order, as the host tells, whose answers have the same bits: each the fraction of the
-/// exposure that it asked for, and whether a polynomial or the plateau's line answered it; none for functions other
-/// than the inverse and the step of a frame's triggers.
-fn asked(series: Series) -> Vec<(f64, bool)> {
-    match series.octaves {
-        0 => with::<0>(series),
-        4 => with::<4>(series),
-        _ => with::<8>(series),
-    }
+fn curve<const OCTAVES: usize>(curve: usize) -> ShutterCurve<OCTAVES> {
+    let (opening, closing) = CURVES[curve].ramps();
+    ShutterCurve::with_octaves(opening, closing).expect("a good curve")
 }
 
-fn with<const OCTAVES: usize>(series: Series) -> Vec<(f64, bool)> {
-    let (opening, closing) = CURVES[series.curve].ramps();
-    let curve = ShutterCurve::<OCTAVES>::with_octaves(opening, closing).expect("a good curve");
-    match series.function {
-        InverseCdf | Static => series.us().map(|u| (u.into(), curve.is_direct(u))).collect(),
-        TickStep => {
-            let steps = series.frames().flat_map(|(n, steps)| {
-                let frame = curve.trigger_ticks(n, TICK_HZ).expect("a good rate");
-                let u = move |i| (2.0 * f64::from(i) + 1.0) / (2.0 * f64::from(n));
-                (0..steps).map(move |i| (u(i), frame.is_direct(i)))
-            });
-            steps.collect()
-        }
-        _ => Vec::new(),
-    }
+fn evaluations<const OCTAVES: usize>(place: usize) -> Box<dyn Fn(f32) -> u32> {
+    let curve = curve::<OCTAVES>(place);
+    Box::new(move |u| curve.evaluations(u))
+}
+
+/// Which answers of a series came without a search, as the host tells, whose answers have the same bits; none of other
+/// functions than the inverse and a tick.
+fn direct(series: &Series) -> Vec<bool> {
+    let curve = curve::<DEFAULT>(series.curve);
+    let frame = curve.trigger_ticks(MOST_TRIGGERS, TICK_HZ).expect("a good rate");
+    let direct = series.us.iter().map(|u| match series.of {
+        (InverseCdf | Static, DEFAULT) => curve.is_direct(*u),
+        (Tick, DEFAULT) => frame.is_direct(trigger(*u)),
+        _ => false,
+    });
+    direct.collect()
 }

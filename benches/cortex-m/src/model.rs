@@ -11,8 +11,6 @@
 //!
 //! `docs/internals/tried.md` holds this against cycles that others have measured.
 
-use crate::disassembly::{Instruction, registers};
-
 /// What of an instruction's cost is known before it runs.
 #[derive(Clone, Copy, Default)]
 pub struct Cost {
@@ -30,9 +28,9 @@ pub struct Cost {
 }
 
 impl Cost {
-    pub fn new(instruction: &Instruction) -> Self {
-        let name = instruction.name.trim_end_matches(".w").trim_end_matches(".n");
-        let operands = instruction.operands.as_str();
+    /// Of an instruction as QEMU disassembles it.
+    pub fn new(name: &str, operands: &str) -> Self {
+        let name = name.trim_end_matches(".w").trim_end_matches(".n");
         let is = |names: &[&str]| names.iter().any(|n| name.starts_with(n));
         if name.starts_with('v') {
             return Self::float(name, operands);
@@ -131,4 +129,12 @@ fn float_bits(operand: &str) -> Option<u32> {
         return Some(1 << number(n)?);
     }
     operand.strip_prefix('d').and_then(|n| 3u32.checked_shl(2 * number(n)?))
+}
+
+/// The registers in `{r4, r5, r7, lr}` or `{d8-d10}`.
+fn registers(operands: &str) -> u32 {
+    let list = operands.split('{').nth(1).and_then(|rest| rest.split('}').next()).unwrap_or("");
+    let number = |name: &str| name.trim().trim_start_matches(['r', 'd', 's']).parse::<u32>().unwrap_or(0);
+    let parts = list.split(',').filter(|part| !part.trim().is_empty());
+    parts.map(|part| part.split_once('-').map_or(1, |(a, b)| number(b) - number(a) + 1)).sum()
 }

@@ -1,105 +1,88 @@
-//! The report, as Markdown, in `docs/internals/cost.md`.
+//! The tables of `docs/internals/cost.md`.
 
 use measured::baseline::{self, InverseTable, StraightRamps};
-use measured::{CURVE_BYTES, DEFAULT, Function, OCTAVES, ROWS, TRAPEZOID, TRIGGERS};
+use measured::{ALL_RAMP, CURVE_BYTES, DEFAULT, NAMES, OCTAVES, SOFT, TRAPEZOID, TRIGGERS};
 
 use crate::Result;
 use crate::firmware::{IMAFC, IMC, M0, M4F, M33, folder, made_with};
-use crate::measure::{Measured, On, series};
+use crate::measure::{Measured, Of};
 
-use Function::{
-    Cdf, Construct, InverseCdf, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm, SqrtMicromath, Static, Table,
-    TickStep,
+use measured::Function::{
+    Cdf, Construct, InverseCdf, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm, SqrtMicromath, Static, Table, Tick,
 };
 
-/// The calls as the reader knows them, with their numbers of octaves; the last are the baselines.
-const CALLS: [(&str, Function, usize); 13] = [
-    ("`inverse_cdf`", InverseCdf, DEFAULT),
-    ("`inverse_cdf` of a `static`", Static, DEFAULT),
-    ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf, 0),
-    ("`inverse_cdf`, `OCTAVES = 4`", InverseCdf, 4),
-    ("`cdf`", Cdf, DEFAULT),
-    ("`openness`", Openness, DEFAULT),
-    ("a tick", TickStep, DEFAULT),
-    ("a schedule", Schedule, DEFAULT),
-    ("Newton, nearer end", NearerEnd, DEFAULT),
-    ("linear table of 256", Table, DEFAULT),
-    ("`libm::sqrtf`", SqrtLibm, DEFAULT),
-    ("`micromath` `sqrt`", SqrtMicromath, DEFAULT),
-    ("the FPU's square root", SqrtFpu, DEFAULT),
+/// The calls as the reader knows them; the last are the baselines.
+const CALLS: [(&str, Of); 13] = [
+    ("`inverse_cdf`", (InverseCdf, DEFAULT)),
+    ("`inverse_cdf` of a `static`", (Static, DEFAULT)),
+    ("`inverse_cdf`, `OCTAVES = 0`", (InverseCdf, 0)),
+    ("`inverse_cdf`, `OCTAVES = 4`", (InverseCdf, 4)),
+    ("`cdf`", (Cdf, DEFAULT)),
+    ("`openness`", (Openness, DEFAULT)),
+    ("a tick", (Tick, DEFAULT)),
+    ("a schedule", (Schedule, DEFAULT)),
+    ("Newton, nearer end", (NearerEnd, DEFAULT)),
+    ("linear table of 256", (Table, DEFAULT)),
+    ("`libm::sqrtf`", (SqrtLibm, DEFAULT)),
+    ("`micromath` `sqrt`", (SqrtMicromath, DEFAULT)),
+    ("the FPU's square root", (SqrtFpu, DEFAULT)),
 ];
 
-/// The octaves of which all cores are told.
-const TOLD: [usize; 2] = [0, DEFAULT];
-
-/// All calls with the octaves that a core is told of.
-fn plan(octaves: &[usize], on: On) -> Vec<measured::Series> {
-    let calls = CALLS.iter().filter(|(.., count)| octaves.contains(count));
-    calls.flat_map(|(_, function, count)| series(&[*function], &[*count], on)).collect()
-}
+const BUILDING: [(&str, Of); 2] =
+    [("building, `OCTAVES = 0`", (Construct, 0)), ("building, `OCTAVES = 8`", (Construct, DEFAULT))];
 
 pub fn write() -> Result {
-    let building = |on| series(&[Construct], &TOLD, on);
-    let m4f = Measured::new(M4F, &[plan(&OCTAVES, On::All), building(On::All)].concat())?;
-    let told = [plan(&TOLD, On::Rows), building(On::Rows)].concat();
-    let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, &told));
-    let others = others.into_iter().collect::<Result<Vec<_>>>()?;
-    let others: Vec<&Measured> = others.iter().collect();
+    let functions: Vec<Of> = CALLS.into_iter().chain(BUILDING).map(|(_, of)| of).collect();
+    let cores = [M4F, M33, M0, IMAFC, IMC].map(|core| Measured::new(core, &functions, TRAPEZOID + 1));
+    let cores = cores.into_iter().collect::<Result<Vec<_>>>()?;
     let page = format!(
         "# What it costs on a microcontroller
 
-Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times, with `OCTAVES = 8` if no other number is named.
-*Soft* collects a third of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps. *Worst*
-is the worst call found on the tests' hard curves; a density that is dark at both ends may take some five times as many
-evaluations. *Direct* is the worst that needs no search. A schedule is of {TRIGGERS} triggers, checked. Calls go through
-an opaque reference; in the second row each curve is a `static`, as in firmware, and the worst is over typical curves.
+Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times; `OCTAVES = 8` where no other number is named. *Soft*
+collects a third of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps. *Worst* is the
+worst call found on the tests' hard curves, *direct* the worst without a search. A schedule has {TRIGGERS} triggers.
 
 {cycles}
 
-Mean instructions on other cores, of square roots on *trapezoid*:
+The first row calls by an opaque reference. In the second each curve is a `static`, as in firmware, and the worst is
+over typical curves.
+
+Mean instructions, *soft* and *all ramp*, of square roots *trapezoid*:
 
 {instructions}
 
-[speed-vs-error.md](speed-vs-error.md) says what the other methods are, and has all errors.
+[speed-vs-error.md](speed-vs-error.md) describes the other methods and their errors.
+
+## Building a curve at run time, flash and stack
+
+The compiler builds a `static` curve. Built on a microcontroller, *soft* takes the instructions in the first two rows,
+most of them in doubles, which all of these cores compute in software. Code is every function that a call ran, stack the
+most that it took. `.data` and `.bss` hold {statics} bytes.
+
+{bytes}
+
+## How it is measured
 
 Made by `benches/cortex-m/run.sh --write-docs`, with
 {made_with}.
 
-## How it is measured
-
-A call's figures are from its first instruction to its return, over 512 uniform `u` (or times), with all but the call
-itself inlined.
-
-*Instructions* are counted in QEMU and exact: of a Cortex-M33 and a riscv32imafc with an FPU, of a Cortex-M0+ and a
-riscv32imc in soft float. *Cycles* are modelled. Take them to be within 10 % at zero wait states, probably 1 to 4 % low
-([how the model was chosen](tried.md#the-model-of-cycles)); two wait states without a cache cost up to 1.4 times as
-much.
-
-*Worst* is over the tests' hard curves and cases, each with some 870 hard inputs, those of 20 000 that take most
-evaluations among them; of triggers over frames of 64, and first triggers near a hard input. A refused frame costs no
-more.
-
-## Building a curve at run time, flash and stack
-
-The compiler builds a `static` curve. Built on the microcontroller, *soft* takes these instructions, most of them in
-doubles, which all of these cores compute in software; on a Cortex-M4F {building} cycles with `OCTAVES = 8`. Code is
-all that a call reaches, so calls share some; stack is the deepest path by the compiler's figures. `.data` and `.bss`
-hold {statics} bytes.
-
-{bytes}
+A call counts from its first instruction to its return. QEMU counts *instructions* exactly: a Cortex-M33 and a
+riscv32imafc have an FPU, a Cortex-M0+ and a riscv32imc compute floats in software. *Cycles* are modelled, within 10 %
+at zero wait states, probably 1 to 4 % low ([how the model was chosen](tried.md#the-model-of-cycles)). Two wait states
+without a cache cost up to 1.4 times as much. A density that is dark at both ends may need more evaluations than the
+worst call here.
 ",
-        cycles = cycles(&m4f),
-        instructions = instructions(&others),
+        cycles = cycles(&cores[0]),
+        instructions = instructions(&cores),
+        statics = cores[0].statics,
+        bytes = bytes(&cores),
         made_with = made_with()?,
-        building = figures([m4f.cycles(Construct, 0, DEFAULT).map(grouped)]),
-        statics = m4f.code.statics,
-        bytes = bytes(&[&[&m4f], &others[..]].concat()),
     );
     Ok(std::fs::write(folder().join("../../docs/internals/cost.md"), page)?)
 }
 
 /// The data of a call's curve.
-fn data_bytes(function: Function, octaves: usize) -> Option<usize> {
+fn data_bytes((function, octaves): Of) -> Option<usize> {
     Some(match function {
         NearerEnd => size_of::<baseline::NearerEnd>(),
         Table => size_of::<InverseTable<256>>(),
@@ -108,17 +91,14 @@ fn data_bytes(function: Function, octaves: usize) -> Option<usize> {
     })
 }
 
-/// A table, its columns' names between bars: the first of text, the others of figures.
-fn table(header: &str, rows: impl IntoIterator<Item = String>) -> String {
+/// A table of figures by rows, its columns' names between bars.
+fn table(header: &str, rows: impl IntoIterator<Item = (String, Vec<Option<String>>)>) -> String {
     let ruled = format!("|---|{}", "--:|".repeat(header.matches('|').count()));
-    let rows = rows.into_iter().map(|row| format!("\n| {row} |"));
+    let rows = rows.into_iter().map(|(name, figures)| {
+        let figures = figures.into_iter().map(|figure| figure.unwrap_or_else(|| "-".into()));
+        format!("\n| {name} | {} |", figures.collect::<Vec<_>>().join(" | "))
+    });
     format!("| {header} |\n{ruled}{}", rows.collect::<String>())
-}
-
-/// The figures of a row, a dash where there is none.
-fn figures<T: ToString>(figures: impl IntoIterator<Item = Option<T>>) -> String {
-    let figures = figures.into_iter().map(|f| f.map_or_else(|| "-".into(), |f| f.to_string()));
-    figures.collect::<Vec<_>>().join(" | ")
 }
 
 /// A number's digits, in threes if there are five or more, with a narrow space that does not break.
@@ -128,52 +108,42 @@ fn grouped(number: f64) -> String {
     if digits.len() < 5 { digits } else { grouped.collect::<Vec<_>>().join("\u{202f}") }
 }
 
-/// The names of columns, one a core.
-fn names(cores: &[&Measured]) -> String {
-    figures(cores.iter().map(|core| Some(core.name.replace("Cortex-", ""))))
-}
-
-/// What each call costs.
 fn cycles(m4f: &Measured) -> String {
-    let rows = CALLS.map(|(name, function, octaves)| {
-        let means = (0..=TRAPEZOID).map(|row| Some(format!("{:.0}", m4f.cycles(function, row, octaves)?)));
-        let worst = [m4f.worst(function, octaves), m4f.worst_direct(function, octaves)];
-        let [worst, direct] = worst.map(|worst| worst.map(|(cycles, _)| cycles));
-        let counts = figures([worst, direct, m4f.code_bytes(function, octaves)]);
-        format!("{name} | {} | {counts} | {}", figures(means), figures([data_bytes(function, octaves)]))
+    let rows = CALLS.map(|(name, of)| {
+        let means = (0..=TRAPEZOID).map(|curve| m4f.mean(of, curve).map(|[_, cycles]| format!("{cycles:.0}")));
+        let worst = [false, true].map(|is_direct| Some(m4f.worst(of, is_direct)?.0.to_string()));
+        let bytes = [m4f.code(of).map(|bytes| bytes.to_string()), data_bytes(of).map(|bytes| bytes.to_string())];
+        (name.to_owned(), means.chain(worst).chain(bytes).collect())
     });
-    let header = format!("call | {} | worst | direct | code, bytes | data, bytes", ROWS[..=TRAPEZOID].join(" | "));
-    table(&header, rows)
+    table(&format!("call | {} | worst | direct | code, bytes | data, bytes", NAMES[..=TRAPEZOID].join(" | ")), rows)
 }
 
-/// Each call's instructions.
-fn instructions(cores: &[&Measured]) -> String {
-    let rows = CALLS.into_iter().filter(|(.., octaves)| TOLD.contains(octaves)).map(|(name, function, octaves)| {
-        let curves = if function.is_for_straight_ramps() { TRAPEZOID..=TRAPEZOID } else { 0..=TRAPEZOID - 1 };
-        let counts = cores.iter().map(|core| {
-            let on = |row| Some(grouped(core.instructions(function, row, octaves)?));
-            Some(curves.clone().map(on).collect::<Option<Vec<_>>>()?.join("; "))
-        });
-        format!("{name} | {}", figures(counts))
-    });
-    table(&format!("soft; all ramp | {}", names(cores)), rows)
+/// A row for each call, a column for each core.
+fn by_core(
+    head: &str,
+    cores: &[Measured],
+    calls: &[(&str, Of)],
+    cell: impl Fn(&Measured, Of) -> Option<String>,
+) -> String {
+    let names: Vec<_> = cores.iter().map(|core| core.name.replace("Cortex-", "")).collect();
+    let rows = calls.iter().map(|(name, of)| (name.to_string(), cores.iter().map(|core| cell(core, *of)).collect()));
+    table(&format!("{head} | {}", names.join(" | ")), rows)
 }
 
-/// What building a curve and every call take beside time.
-fn bytes(cores: &[&Measured]) -> String {
-    let row = |name: &str, function, octaves| {
-        let bytes = cores.iter().map(|core| {
-            let bytes = [core.code_bytes(function, octaves)?, core.stack_bytes(function, octaves)?];
-            Some(bytes.map(|bytes| grouped(bytes.into())).join("; "))
-        });
-        format!("{name} | {}", figures(bytes))
-    };
-    let building = TOLD.into_iter().flat_map(|octaves| {
-        let name = format!("building, `OCTAVES = {octaves}`");
-        let counts = cores.iter().map(|core| core.instructions(Construct, 0, octaves).map(grouped));
-        [format!("{name}: instructions | {}", figures(counts)), row(&name, Construct, octaves)]
+fn instructions(cores: &[Measured]) -> String {
+    by_core("soft; all ramp", cores, &CALLS, |core, of| {
+        let curves = if of.0.is_for_straight_ramps() { &[TRAPEZOID][..] } else { &[SOFT, ALL_RAMP] };
+        let means = curves.iter().map(|curve| Some(grouped(core.mean(of, *curve)?[0])));
+        Some(means.collect::<Option<Vec<_>>>()?.join("; "))
+    })
+}
+
+fn bytes(cores: &[Measured]) -> String {
+    let building = by_core("instructions", cores, &BUILDING, |core, of| Some(grouped(core.mean(of, SOFT)?[0])));
+    let calls = CALLS.into_iter().filter(|(_, of)| matches!(of.0, Static | Cdf | Openness | Tick | Schedule));
+    let rows: Vec<_> = BUILDING.into_iter().chain(calls).collect();
+    let bytes = by_core("bytes of code; stack", cores, &rows, |core, of| {
+        Some(format!("{}; {}", grouped(core.code(of)?.into()), grouped(core.stack(of)?.into())))
     });
-    let calls = CALLS.iter().filter(|call| matches!(call.1, Static | Cdf | Openness | TickStep | Schedule));
-    let calls = calls.map(|(name, function, octaves)| row(name, *function, *octaves));
-    table(&format!("bytes of code; stack | {}", names(cores)), building.chain(calls))
+    format!("{building}\n\n{bytes}")
 }

@@ -1,32 +1,69 @@
-//! Replays QEMU's trace of a run, instruction by instruction, and charges each call for what it executed.
+//! Counts what each call executes, by QEMU's trace of a run.
 //!
-//! QEMU translates a block of instructions, tells which (`-d in_asm`), and tells of each time that it
+//! QEMU disassembles each block of instructions when it translates it (`-d in_asm`), and tells each time that it
 //! executes one (`-d exec,nochain`).
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
+use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
+
 use crate::Result;
-use crate::disassembly::{Disassembly, Instruction};
-use crate::firmware::{Core, start};
+use crate::firmware::{Core, M4F};
 use crate::model::{Cost, Fetch};
 
-/// What one call took, within the called function and what it calls: from its first instruction to its
-/// return, that included.
+/// What one call took, within the called function and what it calls: from its first instruction to its return, that
+/// included.
 #[derive(Clone, Copy, Default)]
 pub struct Call {
     /// The address of what was called.
     pub called: u32,
     pub instructions: u32,
+    /// Of a Cortex-M4F.
     pub cycles: u32,
 }
 
-/// Runs a program and tells of each call of its functions `the_call`, in order.
-pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: File) -> Result<Vec<Call>> {
-    let mut child = start(core, elf, Some(input), &["-d", "in_asm,exec,nochain"])?;
-    let steps = steps(code);
+#[derive(Default)]
+pub struct Run {
+    pub calls: Vec<Call>,
+    /// The functions that calls ran, with their sizes; by what was called, and by their first addresses.
+    pub ran: HashMap<u32, BTreeMap<u32, u32>>,
+    /// What the program printed.
+    pub output: Vec<u8>,
+    /// The bytes of `.data` and `.bss`.
+    pub statics: u64,
+}
+
+/// An instruction as the replay needs it.
+#[derive(Clone, Copy, Default)]
+struct Step {
+    address: u32,
+    length: u32,
+    cost: Cost,
+    /// The first address of its function, and its size.
+    function: (u32, u32),
+    /// Is its function one whose calls are counted?
+    is_counted: bool,
+}
+
+/// Runs a program and counts each call of its functions `the_call`, in order.
+pub fn run(core: Core, elf: &Path, input: File) -> Result<Run> {
+    let bytes = std::fs::read(elf)?;
+    let file = object::File::parse(&*bytes)?;
+    let mut functions = BTreeMap::new();
+    for symbol in file.symbols().filter(|s| s.kind() == SymbolKind::Text && s.size() > 0) {
+        functions.insert(symbol.address() as u32 & !1, (symbol.size() as u32, symbol.name()?.contains("8the_call")));
+    }
+    let step = |line: &str| {
+        let mut step = Step::new(line, core == M4F)?;
+        let (start, (size, is_counted)) = functions.range(..=step.address).next_back()?;
+        (step.function, step.is_counted) = ((*start, *size), *is_counted);
+        Some(step)
+    };
+
+    let mut child = core.start(elf, Some(input), &["-d", "in_asm,exec,nochain"])?;
     let mut replay = Replay::default();
     // The instructions of each block, by QEMU's number for it; and of the one just translated.
     let mut blocks: HashMap<u64, Vec<Step>> = HashMap::new();
@@ -37,7 +74,7 @@ pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: File) -> Result
     let mut reader = BufReader::with_capacity(1 << 16, child.stderr.take().ok_or("no stderr")?);
     let mut line = Vec::new();
     while reader.read_until(b'\n', &mut line)? > 0 {
-        let text = std::str::from_utf8(&line).unwrap_or("");
+        let text = std::str::from_utf8(&line).unwrap_or("").trim_end();
         if text.starts_with("Stopped execution") {
             block = None;
         } else if let Some(number) = block_number(text) {
@@ -49,13 +86,12 @@ pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: File) -> Result
                 return Err(format!("QEMU does not tell a block's instructions: {text}").into());
             }
             block = Some(number);
-        } else if let Some(address) = instruction_address(text) {
-            let unknown = || format!("QEMU executes what the disassembly does not have: {text}");
-            translated.push(*steps.get(&address).ok_or_else(unknown)?);
+        } else if text.starts_with("0x") {
+            translated.push(step(text).ok_or_else(|| format!("QEMU has no disassembler: {text}"))?);
         } else if text.starts_with("IN:") {
             translated.clear();
-        } else if !text.starts_with("---") {
-            other.push_str(text);
+        } else if !text.starts_with("---") && !text.is_empty() {
+            other = format!("{other}{text}\n");
         }
         line.clear();
     }
@@ -63,35 +99,31 @@ pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: File) -> Result
     let output = child.wait_with_output()?;
     if !output.status.success() {
         let printed = String::from_utf8_lossy(&output.stdout);
-        return Err(format!("the firmware stopped early\n{}{printed}", other.trim()).into());
+        return Err(format!("the firmware stopped early\n{other}{printed}").into());
     }
-    Ok(replay.calls)
+    let size = |name| file.section_by_name(name).map_or(0, |section| section.size());
+    Ok(Run { output: output.stdout, statics: size(".data") + size(".bss"), ..replay.run })
 }
 
-/// An instruction as the replay needs it.
-#[derive(Clone, Copy, Default)]
-struct Step {
-    address: u32,
-    length: u32,
-    cost: Cost,
-    /// Does it begin what is measured?
-    begins: bool,
-}
-
-/// The instructions by their addresses.
-fn steps(code: &Disassembly) -> HashMap<u32, Step> {
-    let begin = code.named("the_call");
-    let step = |i: &Instruction| {
-        let begins = begin.contains(&i.address);
-        (i.address, Step { address: i.address, length: i.length, cost: Cost::new(i), begins })
-    };
-    code.instructions.iter().map(step).collect()
+impl Step {
+    /// Of `0x00000404:  480e       ldr      r0, [pc, #0x38]`; in it instructions of 32 bits have a blank, or none.
+    fn new(line: &str, has_cost: bool) -> Option<Self> {
+        let (address, rest) = line.strip_prefix("0x")?.split_once(':')?;
+        let (code, text) = rest.trim_start().split_once("  ")?;
+        let (name, operands) = text.trim_start().split_once(' ').unwrap_or((text.trim_start(), ""));
+        Some(Self {
+            address: u32::from_str_radix(address, 16).ok()?,
+            length: code.chars().filter(char::is_ascii_hexdigit).count() as u32 / 2,
+            cost: if has_cost { Cost::new(name, operands.trim()) } else { Cost::default() },
+            ..Self::default()
+        })
+    }
 }
 
 /// The state of a replay.
 #[derive(Default)]
 struct Replay {
-    calls: Vec<Call>,
+    run: Run,
     /// The call that runs, and where it returns to.
     call: Option<(Call, u32)>,
     /// The last instruction, and within a call the cost of the one before.
@@ -120,13 +152,16 @@ impl Replay {
             call.instructions += 1;
             call.cycles += cycles;
             if step.address == *back {
-                self.calls.push(*call);
+                self.run.calls.push(*call);
                 self.call = None;
+            } else if step.function != last.function {
+                self.run.ran.entry(call.called).or_default().extend([step.function]);
             }
-        } else if step.begins {
+        } else if step.is_counted && step.address == step.function.0 {
             let call = Call { called: step.address, ..Call::default() };
             self.call = Some((call, last.address + last.length));
             (self.before, self.fetch) = (Cost::default(), Fetch::default());
+            self.run.ran.entry(call.called).or_default().extend([step.function]);
         }
     }
 }
@@ -135,10 +170,4 @@ impl Replay {
 fn block_number(line: &str) -> Option<u64> {
     let number = line.strip_prefix("Trace ")?.split(' ').nth(1)?.strip_prefix("0x")?;
     u64::from_str_radix(number, 16).ok()
-}
-
-/// `0x00000400:  f019 f93e  bl       #0x19680`: 0x400.
-fn instruction_address(line: &str) -> Option<u32> {
-    let (address, _) = line.strip_prefix("0x")?.split_once(':')?;
-    u32::from_str_radix(address, 16).ok()
 }

@@ -6,7 +6,7 @@ use chart::{Area, Axis, BLUE, FAINT, GREY, Graph, INK, SCALE, VERMILION, axes, p
 
 use crate::Result;
 use crate::methods::{Kind, METHODS};
-use crate::report::{Measured, cycles};
+use crate::report::Measured;
 
 /// Where the methods' names are, beside the dots of their greatest errors: apart where two dots come close.
 const NAMES: [(i32, i32, HPos); METHODS.len()] = [
@@ -32,29 +32,22 @@ fn power(exponent: f64) -> String {
 
 /// Error against time and against cycles: the greatest (full) and the mean error (ring) of each method, over what a
 /// sample costs.
-pub fn frontier(path: &str, measured: &Measured) -> Result {
-    let times = measured.times.iter().copied().map(Some).collect();
-    let cycles = METHODS.iter().map(|method| cycles(measured, method)).collect();
+pub fn frontier(measured: &Measured) -> Result<String> {
     let title = "Error against time and against cycles: this crate and its peers";
     let svg = picture((1240, 520), title, |page| {
         let areas = page.split_evenly((1, 2));
-        panel(&areas[0], "nanoseconds a sample on the host, soft curve", times, measured)?;
-        let cycles = panel(&areas[1], "mean cycles a sample on a Cortex-M4F (model), soft curve", cycles, measured);
+        panel(&areas[0], "nanoseconds a sample on the host, soft curve", &measured.times, measured)?;
+        let cycles =
+            panel(&areas[1], "mean cycles a sample on a Cortex-M4F (model), soft curve", &measured.cycles, measured);
         // Where there is room.
         legend(&mut cycles?)
     })?;
     // What is said of each dot and is so without being said.
-    let svg = svg.replace(" stroke=\"none\" stroke-width=\"1\"/>", "/>").replace(" opacity=\"1\"", "");
-    Ok(std::fs::write(path, svg)?)
+    Ok(svg.replace(" stroke=\"none\" stroke-width=\"1\"/>", "/>").replace(" opacity=\"1\"", ""))
 }
 
-fn panel<'a, 'b>(
-    area: &'a Area<'b>,
-    name: &str,
-    costs: Vec<Option<f64>>,
-    measured: &Measured,
-) -> Result<Graph<'a, 'b>> {
-    let logs = costs.iter().flatten().map(|cost| cost.log2());
+fn panel<'a, 'b>(area: &'a Area<'b>, name: &str, costs: &[f64], measured: &Measured) -> Result<Graph<'a, 'b>> {
+    let logs = costs.iter().map(|cost| cost.log2());
     let low = logs.clone().fold(f64::INFINITY, f64::min);
     let high = logs.fold(f64::NEG_INFINITY, f64::max);
     let label = |x: &f64| format!("{:.0}", 2f64.powf(x.round()));
@@ -63,7 +56,6 @@ fn panel<'a, 'b>(
         Axis { range: -9.5..0.5, name: Some("error, as a share of the interval"), labels: 6, label: &|y| power(*y) };
     let mut graph = axes(area, x, y, 62)?;
     for (((method, figures), cost), (dx, dy, h)) in METHODS.iter().zip(&measured.figures).zip(costs).zip(NAMES) {
-        let Some(cost) = cost else { continue };
         let color = match method.kind {
             Kind::Ours => BLUE,
             Kind::General => VERMILION,

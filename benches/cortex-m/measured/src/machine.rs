@@ -1,6 +1,5 @@
-//! Where a program runs: on one of QEMU's boards with an Arm core; as a bare Linux program, by system calls alone, for
-//! other processors in QEMU's user mode; or as WebAssembly, of which the host is asked to print. It starts in the
-//! program's `run` and panics in its `panicked`.
+//! Where a program runs: on one of QEMU's boards with an Arm core; or as a bare Linux program, by system calls alone, for
+//! other processors in QEMU's user mode. It starts in the program's `run` and panics in its `panicked`.
 #![allow(dead_code, unreachable_code, unused_imports, reason = "a program needs a part, and some run for ever")]
 
 use core::fmt::{self, Write};
@@ -63,42 +62,15 @@ mod on {
     }
 }
 
-#[cfg(target_arch = "wasm32")]
-mod on {
-    pub struct In;
-
-    #[link(wasm_import_module = "host")]
-    unsafe extern "C" {
-        #[link_name = "write"]
-        fn host_write(bytes: *const u8, length: usize);
-    }
-
-    #[unsafe(no_mangle)]
-    extern "C" fn _start() {
-        crate::run();
-    }
-
-    pub fn write(bytes: &[u8]) {
-        // SAFETY: the host reads so many bytes from there.
-        unsafe { host_write(bytes.as_ptr(), bytes.len()) }
-    }
-
-    pub fn exit(_: bool) -> ! {
-        core::arch::wasm32::unreachable()
-    }
-}
-
-#[cfg(not(any(target_arch = "arm", target_arch = "wasm32")))]
+#[cfg(not(target_arch = "arm"))]
 mod on {
     use syscalls::{Sysno, syscall};
 
     // Linux aligns the stack; what a function expects beside that differs.
-    #[cfg(any(target_arch = "riscv32", target_arch = "riscv64", target_arch = "x86"))]
+    #[cfg(target_arch = "riscv32")]
     core::arch::global_asm!(".globl _start", "_start: call started");
     #[cfg(target_arch = "s390x")]
     core::arch::global_asm!(".globl _start", "_start: aghi %r15, -160", "brasl %r14, started");
-    #[cfg(target_arch = "powerpc")]
-    core::arch::global_asm!(".globl _start", "_start: stwu 1, -16(1)", "bl started");
 
     #[unsafe(no_mangle)]
     extern "C" fn started() -> ! {

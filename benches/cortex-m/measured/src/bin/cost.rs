@@ -1,8 +1,9 @@
-//! Runs the series of calls that it is asked for, for the host to count in QEMU's trace.
+//! Runs the series of calls that it is asked for, for the host to count in QEMU's trace, and prints the stack that each
+//! took.
 //!
-//! Building all curves takes a thousand times the instructions of what is measured, too many to trace. So the firmware
-//! runs twice: where its input is empty it builds them and prints their bytes. These begin the second run's input, and
-//! the series follow.
+//! Building all curves takes a thousand times the instructions of what is counted, too many to trace. So the firmware
+//! runs twice: where its input is empty it builds them and prints their bytes. These begin the second run's input. Each
+//! series follows: its function, its octaves, its curve, and how many fractions it has; then these.
 #![no_std]
 #![no_main]
 #![cfg_attr(bare, feature(core_intrinsics), allow(internal_features))]
@@ -11,7 +12,7 @@ use core::hint::black_box;
 use core::mem::MaybeUninit;
 
 use measured::baseline::{InverseTable, NearerEnd, StraightRamps};
-use measured::{CURVES, Function, Series, TICK_HZ, TRIGGERS, TYPICAL};
+use measured::{CURVES, FUNCTIONS, Function, MOST, MOST_TRIGGERS, TICK_HZ, TRIGGERS, TYPICAL, trigger};
 use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, expect_valid};
 
 #[path = "../machine.rs"]
@@ -57,12 +58,52 @@ macro_rules! each_static {
 }
 const EACH_STATIC: [fn(f32) -> f32; TYPICAL] = each_static!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
 
-/// Calls for each input.
+/// The words below the stack that are painted.
+const PAINTED: usize = 4096;
+const PAINT: u32 = 0x5AA5_C33C;
+
+/// Paints what lies below the stack of whoever calls, or says down to which address the paint is gone.
 #[inline(never)]
-fn each<I, O>(inputs: impl Iterator<Item = I>, mut call: impl FnMut(I) -> O) {
-    for input in inputs {
-        black_box(call(black_box(input)));
+fn below(paints: bool) -> usize {
+    let mut words = [const { MaybeUninit::<u32>::uninit() }; PAINTED];
+    let mut end = words.as_ptr() as usize;
+    for word in &mut words {
+        let word = word.as_mut_ptr();
+        // SAFETY: its own memory; volatile, since the compiler does not know what was painted there before.
+        unsafe {
+            if paints {
+                word.write_volatile(PAINT);
+            } else if word.read_volatile() != PAINT {
+                break;
+            }
+        }
+        end += size_of::<u32>();
     }
+    end
+}
+
+#[inline(always)]
+fn stack_pointer() -> usize {
+    let address;
+    // SAFETY: reads a register.
+    unsafe {
+        #[cfg(target_arch = "arm")]
+        core::arch::asm!("mov {}, sp", out(reg) address);
+        #[cfg(not(target_arch = "arm"))]
+        core::arch::asm!("mv {}, sp", out(reg) address);
+    }
+    address
+}
+
+/// Calls for each input, and prints the bytes of stack that it took.
+#[inline(never)]
+fn each<I: Copy, O>(inputs: &[I], mut call: impl FnMut(I) -> O) {
+    below(true);
+    for input in inputs {
+        black_box(call(black_box(*input)));
+    }
+    let taken = (stack_pointer() - below(false)) as u32;
+    write(&taken.to_le_bytes());
 }
 
 /// All curves with so many octaves.
@@ -85,48 +126,39 @@ fn curves<'a, const C: usize>(input: &mut In, place: &'a mut MaybeUninit<Curves<
     unsafe { place.assume_init_ref() }
 }
 
-fn by_square_roots(us: impl Iterator<Item = f32>, curve: &measured::Curve, sqrt: impl Fn(f32) -> f32 + Copy) {
+fn by_square_roots(us: &[f32], curve: &measured::Curve, sqrt: impl Fn(f32) -> f32 + Copy) {
     let ramps = black_box(curve.straight());
     let inverse = |ramps: &StraightRamps, u| ramps.inverse_cdf(u, sqrt);
     each(us, |u| the_call(inverse, &ramps, u))
 }
 
-fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
-    let data = &CURVES[series.curve];
-    let curve = black_box(&curves[series.curve]);
+fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, us: &[f32]) {
+    let (data, curve) = (&CURVES[i], black_box(&curves[i]));
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
-    let us = series.us();
-    let ts = series.us().map(|u| start + length * u);
-    match series.function {
+    match function {
         Function::InverseCdf => each(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
-        Function::Static => each(us, EACH_STATIC[series.curve]),
-        Function::Cdf => each(ts, |t| the_call(ShutterCurve::cdf, curve, t)),
-        Function::Openness => each(ts, |t| the_call(ShutterCurve::openness, curve, t)),
-        Function::TickStep => each(series.frames(), |(n, steps)| {
-            let mut ticks = curve.trigger_ticks(n, black_box(TICK_HZ)).expect("a good rate");
-            for _ in 0..steps {
-                black_box(the_call(|ticks: &mut TriggerTicks<C>, ()| ticks.next(), &mut ticks, ()));
-            }
-        }),
-        Function::Schedule => {
-            let mut ticks = [0; TRIGGERS as usize];
-            let plan = |curve: &ShutterCurve<C>, (ticks, gap): (&mut [u32; TRIGGERS as usize], u32)| {
-                curve.ticks_into(ticks, TICK_HZ, gap)
-            };
-            // On hard curves triggers may share a tick.
-            let gap = u32::from(!series.is_hard);
-            each([gap].into_iter(), |gap| {
-                let planned = the_call(plan, curve, (&mut ticks, gap));
-                black_box((planned, &ticks)).0.is_ok()
+        Function::Static => each(us, EACH_STATIC[i]),
+        Function::Cdf => each(us, |u| the_call(ShutterCurve::cdf, curve, start + length * u)),
+        Function::Openness => each(us, |u| the_call(ShutterCurve::openness, curve, start + length * u)),
+        Function::Tick => {
+            let frame = curve.trigger_ticks(MOST_TRIGGERS, black_box(TICK_HZ)).expect("a good rate");
+            each(us, |u| {
+                let mut ticks = frame.clone();
+                if let Some(before) = trigger(u).checked_sub(1) {
+                    ticks.nth(before as usize);
+                }
+                the_call(|ticks: &mut TriggerTicks<C>, ()| ticks.next(), &mut ticks, ())
             })
         }
+        Function::Schedule => {
+            let mut ticks = [0; TRIGGERS as usize];
+            let plan = |curve: &ShutterCurve<C>, ticks: &mut _| curve.ticks_into(ticks, TICK_HZ, 1).is_ok();
+            each(us, |_| (the_call(plan, curve, &mut ticks), black_box(ticks)))
+        }
         Function::Construct => {
-            let mut built = None;
             let build = |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
-            each([data.ramps()].into_iter(), |(opening, closing)| {
-                built = the_call(build, &opening, &closing).ok();
-            });
-            black_box(built);
+            let (opening, closing) = black_box(data.ramps());
+            each(us, |_| the_call(build, &opening, &closing).is_ok())
         }
         Function::NearerEnd => {
             let newton = black_box(NearerEnd::new(data.opening, data.closing));
@@ -149,13 +181,18 @@ fn run() {
     let with_0 = curves::<0>(&mut input, &mut places.0);
     let with_4 = curves::<4>(&mut input, &mut places.1);
     let with_8 = curves::<8>(&mut input, &mut places.2);
-    let mut bytes = [0; 4];
-    while input.read(&mut bytes) == bytes.len() {
-        let series = Series::from_bytes(bytes);
-        match series.octaves {
-            0 => run_series(series, with_0),
-            4 => run_series(series, with_4),
-            _ => run_series(series, with_8),
+    let mut words = [[0; 4]; MOST];
+    let mut read = |count: usize| {
+        words[..count].iter_mut().all(|word| input.read(word) == word.len()).then(|| words.map(u32::from_le_bytes))
+    };
+    while let Some([function, octaves, curve, count, ..]) = read(4) {
+        let Some(us) = read(count as usize) else { break };
+        let (function, curve) = (FUNCTIONS[function as usize], curve as usize);
+        let us = &us.map(f32::from_bits)[..count as usize];
+        match octaves {
+            0 => run_series(function, curve, with_0, us),
+            4 => run_series(function, curve, with_4, us),
+            _ => run_series(function, curve, with_8, us),
         }
     }
 }
