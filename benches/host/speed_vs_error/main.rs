@@ -1,8 +1,8 @@
-//! Speed against error: a report and its picture, from one run.
+//! Speed against error: what a call takes on this machine, beside other methods.
 //!
-//! `cargo bench -p benches` leaves rough figures in `target/speed-vs-error`, after seconds. With `-- --write-docs` it
-//! takes minutes, on a machine that does nothing else, and writes `docs/internals/speed-vs-error.md`. `--every-f32`
-//! tries every `f32` on some curves, and writes `every-f32.md`.
+//! `cargo bench` prints rough figures, in a minute after its build, and writes nothing. With `-- --write-docs` it takes
+//! minutes, on a machine that does nothing else, and writes `docs/internals/speed-vs-error.md` with its picture.
+//! `-- --every-f32` asks some curves for every `f32`, and writes `every-f32.md` beside it.
 
 mod accuracy;
 mod every_f32;
@@ -13,6 +13,7 @@ mod report;
 mod support;
 mod timing;
 
+use methods::METHODS;
 use report::Measured;
 
 const DOCS: &str = "docs/internals";
@@ -22,34 +23,40 @@ type Result<T = (), E = Box<dyn std::error::Error>> = std::result::Result<T, E>;
 fn main() -> Result {
     // All paths are the repository's; cargo starts a bench in its package, and adds an argument.
     std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
-    let mut arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
-    let asked = arguments.len();
-    arguments.retain(|argument| argument != "--write-docs");
-    let is_kept = arguments.len() < asked;
-    let folder = if is_kept { DOCS } else { "target/speed-vs-error" };
-    std::fs::create_dir_all(folder)?;
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] if is_kept => report(folder, 200, 4000, 101),
-        [] => report(folder, 20, 500, 5),
-        ["--every-f32"] => write(&format!("{folder}/every-f32.md"), report::every_f32(&every_f32::every_f32())),
+        [] => {
+            println!("{}\n", report::methods(&measured(20, 500, 900, 5)?));
+            let calls = methods::calls();
+            let times = timing::times(&calls.iter().map(|(.., call)| &**call).collect::<Vec<_>>(), 64, 101);
+            println!("{}", report::calls(&calls, &times));
+            Ok(())
+        }
+        ["--write-docs"] => {
+            let measured = measured(200, 4000, 9000, 101)?;
+            write("frontier.svg", picture::frontier(&measured)?)?;
+            write("speed-vs-error.md", report::page(&measured))
+        }
+        ["--every-f32"] => write("every-f32.md", report::every_f32(&every_f32::every_f32())),
         _ => Err("usage: see speed_vs_error/main.rs".into()),
     }
 }
 
-fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
+/// On so many random and so many hard curves.
+fn measured(random: u64, samples: usize, hard: usize, repeats: usize) -> Result<Measured> {
     let curves = accuracy::curves(random);
-    let measured = Measured {
+    let methods = METHODS.map(|method| (method.build)(&methods::curve(method.curve())).expect("it serves that curve"));
+    Ok(Measured {
         curves: curves.len(),
         samples,
+        hard: (hard, accuracy::of_hard_curves(hard)),
         figures: accuracy::measure(&curves, samples),
-        times: timing::times(repeats),
+        times: timing::times(&methods.iter().map(|method| &**method).collect::<Vec<_>>(), 1 << 16, repeats),
         cycles: report::cycles(&std::fs::read_to_string(format!("{DOCS}/cost.md"))?)?,
-    };
-    write(&format!("{folder}/frontier.svg"), picture::frontier(&measured)?)?;
-    write(&format!("{folder}/speed-vs-error.md"), report::methods(&measured))
+    })
 }
 
-fn write(path: &str, text: String) -> Result {
-    println!("writing {path}");
-    Ok(std::fs::write(path, text)?)
+fn write(name: &str, text: String) -> Result {
+    println!("writing {DOCS}/{name}");
+    Ok(std::fs::write(format!("{DOCS}/{name}"), text)?)
 }

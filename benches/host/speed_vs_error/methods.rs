@@ -1,4 +1,4 @@
-//! The methods under comparison, and the curves that they are timed on; `cargo bench` has them from here, too.
+//! The methods under comparison, the crate's other calls, and the curves that they are timed on.
 
 use std::hint::black_box;
 
@@ -103,6 +103,29 @@ impl Method {
     pub fn curve(&self) -> usize {
         if self.kind == Root { TRAPEZOID } else { SOFT }
     }
+}
+
+/// The crate's other calls on each curve, as functions of a fraction; a curve lasts from 0 to 1.
+pub fn calls() -> Vec<(&'static str, &'static str, Box<dyn Inverse>)> {
+    let calls = CURVES.iter().enumerate().flat_map(|(place, [name, _])| {
+        let (data, ours) = (curve(place), shutter::<8>(&curve(place)));
+        let (by_cdf, by_frame) = (ours.clone(), ours.clone());
+        let schedule = move |_| {
+            let mut ticks = [0; 64];
+            f32::from(u8::from(ours.ticks_into(&mut ticks, 1 << 24, 1).is_ok())) + ticks[63] as f32
+        };
+        let tick = move |u: f32| {
+            let mut frame = by_frame.trigger_ticks(1 << 22, 1 << 24).expect("a good rate");
+            frame.nth((u * (1 << 22) as f32) as usize).unwrap_or_default() as f32
+        };
+        [
+            (*name, "`cdf`", boxed(move |u| by_cdf.cdf(u))),
+            (*name, "a tick", boxed(tick)),
+            (*name, "a schedule of 64", boxed(schedule)),
+            (*name, "building", boxed(move |_| shutter::<8>(black_box(&data)).exposure())),
+        ]
+    });
+    calls.map(|(curve, call, boxed)| (curve, call, boxed.expect("a call"))).collect()
 }
 
 fn boxed(inverse: impl Inverse + 'static) -> Built {

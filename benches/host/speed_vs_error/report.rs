@@ -1,16 +1,15 @@
 //! The report's text.
 
 use crate::Result;
-use crate::accuracy::{Figures, of_hard_curves, of_triggers};
-use crate::methods::{CURVES, METHODS};
-
-/// How many hard curves the methods are tried on.
-const HARD: usize = 9000;
+use crate::accuracy::{Figures, of_triggers};
+use crate::methods::{CURVES, Inverse, METHODS};
 
 /// Everything measured; of the methods in their order.
 pub struct Measured {
     pub curves: usize,
     pub samples: usize,
+    /// How many hard curves there were, and the methods' errors on them.
+    pub hard: (usize, Vec<f64>),
     pub figures: Vec<Figures>,
     pub times: Vec<f64>,
     /// Mean cycles of a Cortex-M4F.
@@ -54,19 +53,27 @@ pub fn table(header: &str, rows: impl IntoIterator<Item = Vec<String>>) -> Strin
 }
 
 pub fn methods(measured: &Measured) -> String {
-    let hard = of_hard_curves(HARD);
     let rows = METHODS.iter().enumerate().map(|(i, method)| {
         let Figures { forward, of_interval, steps_back, .. } = measured.figures[i];
         let triggers = of_triggers(method).map_or_else(|| "-".into(), number);
         let time = format!("{:.1}", measured.times[i]);
-        let errors = [forward, of_interval.0, hard[i], steps_back].map(number);
+        let errors = [forward, of_interval.0, measured.hard.1[i], steps_back].map(number);
         [method.name.into(), time].into_iter().chain(errors).chain([triggers]).collect()
     });
-    let table = table("method | ns | ulp(t) | of the interval | hard curves | steps back | a leaf's triggers", rows);
+    table("method | ns | ulp(t) | of the interval | hard curves | steps back | a leaf's triggers", rows)
+}
+
+/// Nanoseconds of the crate's other calls.
+pub fn calls(calls: &[(&str, &str, Box<dyn Inverse>)], times: &[f64]) -> String {
+    let rows = calls.iter().zip(times).map(|((curve, call, _), ns)| vec![format!("{call} on {curve}"), number(*ns)]);
+    table("call | ns", rows)
+}
+
+pub fn page(measured: &Measured) -> String {
     format!(
         "# Speed against error
 
-Written by `cargo bench -p benches -- --write-docs`. Times are medians on one {arch} core, over 65 536 random `u`, so
+Written by `cargo bench -- --write-docs`. Times are medians on one {arch} core, over 65 536 random `u`, so
 that no branch on `u` is predicted; on another machine trust the ratios.
 
 ![Error against cost](frontier.svg)
@@ -85,14 +92,16 @@ where tables and absolute tolerances fail. A time outside the interval counts as
 Square roots are judged on the {straight} straight ones.
 
 - *ulp(t)*: the forward error, as in [accuracy.md](../accuracy.md)
-- *hard curves*: error as a share of the interval, beyond the rounding of the time to an `f32`, on {HARD} curves that
+- *hard curves*: error as a share of the interval, beyond the rounding of the time to an `f32`, on {hard} curves that
   are hard or meet difficulties exactly (`tests/support/cases.rs`, `aimed.rs`), at some 100 hard `u` each
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
 - *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`
 ",
+        table = methods(measured),
         arch = std::env::consts::ARCH,
         curves = measured.curves,
         samples = measured.samples,
+        hard = measured.hard.0,
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
@@ -101,7 +110,7 @@ pub fn every_f32(table: &str) -> String {
     format!(
         "# Every f32
 
-Written by `cargo bench -p benches -- --every-f32 --write-docs`, in half an hour. It asks for the inverse of all `f32`
+Written by `cargo bench -- --every-f32`, in half an hour. It asks for the inverse of all `f32`
 in [0, 1], and for `cdf` and `openness` at all times of a curve. The oracle judges one answer in 65 537: errors are
 backward for the inverse, else those at the best time within an ulp.
 

@@ -1,21 +1,20 @@
-//! Host time a sample: medians of interleaved repeats, in runs so short that a busy machine interrupts few of them.
+//! Host time a call: medians of interleaved repeats, in runs so short that a busy machine interrupts few of them.
 
 use std::time::Instant;
 
-use crate::methods::{METHODS, curve, fractions};
+use crate::methods::{Inverse, fractions};
 
-/// Samples a run.
+/// Calls a run.
 const RUN: usize = 1 << 11;
 
-/// Nanoseconds a sample of every method.
-pub fn times(repeats: usize) -> Vec<f64> {
-    let u = fractions(1 << 16);
-    let methods = METHODS.map(|method| (method.build)(&curve(method.curve())).expect("it serves that curve"));
-    let mut times = vec![vec![Vec::new(); u.len() / RUN]; methods.len()];
-    for (run, u) in (0..repeats).flat_map(|_| u.chunks(RUN).enumerate()) {
-        for (method, times) in methods.iter().zip(&mut times) {
+/// Nanoseconds a call of each, at so many random fractions.
+pub fn times(all: &[&dyn Inverse], count: usize, repeats: usize) -> Vec<f64> {
+    let us = fractions(count);
+    let mut times = vec![vec![Vec::new(); us.len().div_ceil(RUN)]; all.len()];
+    for (run, us) in (0..repeats).flat_map(|_| us.chunks(RUN).enumerate()) {
+        for (one, times) in all.iter().zip(&mut times) {
             let start = Instant::now();
-            method.each(u);
+            one.each(us);
             times[run].push(start.elapsed().as_nanos() as f64);
         }
     }
@@ -23,5 +22,5 @@ pub fn times(repeats: usize) -> Vec<f64> {
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
     };
-    times.iter_mut().map(|runs| runs.iter_mut().map(median).sum::<f64>() / u.len() as f64).collect()
+    times.iter_mut().map(|runs| runs.iter_mut().map(median).sum::<f64>() / us.len() as f64).collect()
 }
