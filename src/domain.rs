@@ -7,7 +7,7 @@
 //! open (proofs/domain.py).
 
 use crate::error::{CurveError, Part, tried};
-use crate::number::units::DOUBLE_WORD;
+use crate::fixed::DOUBLE_WORD;
 use crate::ramp::bezier::CubicBezier;
 
 /// By how much the first inner time may pass the second, as a share of the ramp.

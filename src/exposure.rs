@@ -1,39 +1,33 @@
-//! The exposure: two ramps and the plateau between them, one area over all three, and the moment of a fraction.
+//! The exposure: two ramps and the plateau between them, one area over all three, and the time of a fraction.
 //!
 //! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau
-//! or on the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that
-//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times, but for that of
-//! 1/2, and where rounding meets a tie.
+//! or on the far ramp. A mirrored curve gives mirrored times, but for that of 1/2, and for what rounding down does.
 
 use crate::domain::{self, LEAST_EXPOSURE};
 use crate::error::{CurveError, tried};
+use crate::fixed::{ONE, Units, exponent, fixed_down, fixed_towards_0, power_of_two, times};
 use crate::fraction::{Fraction, Side};
-use crate::number::moment::Moment;
-use crate::number::pair::{Pair, significand};
-use crate::number::units::{WHOLE, WHOLE_EXPONENT};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
-
-/// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
-/// so keep their order.
-const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
+use crate::search::LEAST_ERROR;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Exposure {
     ramps: [Ramp; 2],
-    /// The plateau's fraction of the exposure, in [`WHOLE`].
-    pub(crate) plateau: Pair,
+    /// The plateau's part of the exposure. All three make up [`ONE`].
+    pub(crate) plateau: i64,
     /// `A = ∫ f dt`
     pub(crate) area: f64,
-}
-
-/// What is sought of a fraction, in the section where it lies.
-enum Sought<'a> {
-    /// The fraction past the near ramp, in [`WHOLE`].
-    Plateau(Pair),
-    /// The fraction on a ramp, in [`WHOLE`].
-    Ramp(&'a Ramp, Pair),
+    /// `1 / A`
+    pub(crate) per_area: f64,
+    /// The plateau's line, in units: its time continued to `u = 0`, and its slope, the area.
+    pub(crate) line_base: i64,
+    pub(crate) line_slope: i64,
+    /// The time of 2³² [`Units`].
+    pub(crate) time_of_word: f32,
+    /// [`Units::fine`]
+    fine: u32,
 }
 
 impl Exposure {
@@ -42,16 +36,26 @@ impl Exposure {
     #[inline(never)]
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<(Self, [Shape; 2]), CurveError> {
         tried!(domain::check(opening, closing));
-        let ([start, _, _, open], [close, _, _, end]) = (opening.times(), closing.times());
+        let (first, last) = (opening.times(), closing.times());
+        let ([start, _, _, open], [close, _, _, end]) = (first, last);
         let plateau = close as f64 - open as f64;
         let shapes = [Shape::new(opening), Shape::new(closing)];
-        let area = (shapes[0].area() + shapes[1].area()) + plateau;
+        let areas = [shapes[0].area(), shapes[1].area()];
+        let area = (areas[0] + areas[1]) + plateau;
         if area < LEAST_EXPOSURE * (end as f64 - start as f64) {
             return Err(CurveError::DensityTooSmall);
         }
-        let ramps = [Ramp::new([start, open], &shapes[0], area), Ramp::new([close, end], &shapes[1], area)];
-        let plateau = Pair::from_f64(plateau / area * WHOLE as f64);
-        Ok((Self { ramps, plateau, area }, shapes))
+        let near = fixed_towards_0(areas[0] / area, -62);
+        let far = if plateau > 0.0 { fixed_towards_0(areas[1] / area, -62) } else { ONE - near };
+        let ramps = [Ramp::new(first, &shapes[0], area, near), Ramp::new(last, &shapes[1], area, far)];
+        // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. It is
+        // off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes 2⁸ units or
+        // more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
+        let units = Units::new(start, end);
+        let line_base = units.of(open) - fixed_towards_0(areas[0], units.exponent);
+        let line_slope = units.of(close) + fixed_towards_0(areas[1], units.exponent) - line_base;
+        let (plateau, time_of_word, fine) = (ONE - near - far, power_of_two(units.exponent + 32), units.fine);
+        Ok((Self { ramps, plateau, area, per_area: 1.0 / area, line_base, line_slope, time_of_word, fine }, shapes))
     }
 
     pub(crate) const fn ramp(&self, side: Side) -> &Ramp {
@@ -68,74 +72,49 @@ impl Exposure {
         self.ramp(side).end_time(side.other())
     }
 
-    /// The moment by which a fraction `a` has been collected. What is collected then differs from `a` by at most
-    /// `INVERSE_ERROR · a`; where a search reaches its limit of evaluations there is no bound. Of 0, a
-    /// negative number or NaN it is the end itself, though no light may fall there.
-    pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
+    /// The units of this curve's times.
+    #[inline(always)]
+    pub(crate) const fn units(&self) -> Units {
+        Units { exponent: exponent(self.time_of_word) - 32, fine: self.fine }
+    }
+
+    /// A time in units, rounded down.
+    #[inline(never)]
+    pub(crate) const fn in_units(&self, time: f32) -> i64 {
+        self.units().of(time)
+    }
+
+    /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. What is collected
+    /// then differs from `a` by at most `a / 2²⁶` and 2⁻⁴⁷. Of 0, a negative number or NaN it is the end itself, though no
+    /// light may fall there.
+    #[inline(always)]
+    pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {
         let (side, a) = (fraction.side, fraction.get());
-        if a <= 0.0 || a.is_nan() {
-            return Moment::at(self.end_time(side));
-        }
-        match self.sought(fraction) {
-            Sought::Plateau(past_near) => {
-                // Where near ramp and `a` nearly cancel, `lo` may exceed `hi`. Then `lo · area` is rounded by 2⁻²⁴ of
-                // itself, at most 2⁻⁴⁸ of `a`.
-                let (area, exponent) = significand(self.area);
-                Moment {
-                    base: self.join_time(side),
-                    back: side.is_end(),
-                    way: past_near.times(area),
-                    way_exponent: exponent - WHOLE_EXPONENT,
-                    until: self.join_time(side.other()),
-                }
-            }
-            Sought::Ramp(ramp, part) => {
-                let error = INVERSE_ERROR * (a * WHOLE);
-                ramp.moment(side, ramp.place_of_part(side, part, error).place)
-            }
-        }
-    }
-
-    /// The evaluations of the mass that a search for the moment of a fraction takes.
-    #[cfg(feature = "_measure")]
-    pub(crate) const fn evaluations(&self, fraction: Fraction) -> u32 {
-        match self.sought(fraction) {
-            Sought::Ramp(ramp, part) if fraction.get() > 0.0 => {
-                let error = INVERSE_ERROR * (fraction.get() * WHOLE);
-                ramp.place_of_part(fraction.side, part, error).evaluations
-            }
-            _ => 0,
-        }
-    }
-
-    const fn sought(&self, fraction: Fraction) -> Sought<'_> {
-        let (side, a_in_whole) = (fraction.side, Pair::new(fraction.get() * WHOLE));
+        // To the nearest multiple of 2⁻⁴⁷, as every `f32` from 2⁻²⁴ on is one.
+        let a = if a > 0.0 { ((fixed_down(a, -48) + 1) >> 1) << 15 } else { 0 };
+        // These keep it in order with the next one (proofs/search.py).
+        let error = (a >> 27) + LEAST_ERROR;
         let near = self.ramp(side).share;
-        let (ramp, part) = if a_in_whole.difference(near) < 0.0 {
-            (side, a_in_whole)
+        let (ramp, part) = if a < near {
+            (side, a)
+        } else if a - near < self.plateau {
+            let [base, until] = [self.in_units(self.join_time(side)), self.in_units(self.join_time(side.other()))];
+            // In units the area may have 62 bits, and so may the part: twice both give the time.
+            let way = times((a - near) << 1, (self.line_slope as u64) << 1);
+            let length = (until - base).abs();
+            let way = if way < length { way } else { length };
+            return (if side.is_end() { base - way } else { base + way }, 0);
         } else {
-            let past_near = a_in_whole.minus_loose(near);
-            let past_plateau = past_near.minus(self.plateau);
-            if past_plateau.rounded() <= 0.0 {
-                // On the plateau; or exactly at the join of the ramps, if there is none.
-                return Sought::Plateau(past_near);
-            }
-            (side.other(), past_plateau)
+            (side.other(), a - near - self.plateau)
         };
         // One address, or the search keeps the curve's and an index on the stack.
-        Sought::Ramp(core::hint::black_box(self.ramp(ramp)), part)
+        core::hint::black_box(self.ramp(ramp)).time_of_part(side, part, error, self.units())
     }
 
-    /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two
-    /// parts into which it divides the exposure. So without a plateau both are one number.
+    /// The fractions at which the near ramp ends and the far ramp begins.
     #[inline(never)]
     pub(crate) const fn join_fractions(&self, side: Side) -> [f64; 2] {
-        let near = self.ramp(side).share.to_f64() / WHOLE as f64;
-        let plateau = self.plateau.to_f64() / WHOLE as f64;
-        let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;
-        [
-            if near < 0.5 { near } else { 1.0 - (plateau + far) },
-            if near + plateau < 0.5 { near + plateau } else { 1.0 - far },
-        ]
+        let near = self.ramp(side).share;
+        [near as f64 / ONE as f64, (near + self.plateau) as f64 / ONE as f64]
     }
 }

@@ -43,12 +43,6 @@ impl Side {
     pub(crate) const fn other_if(self, is_other: bool) -> Self {
         Self::end_if(self.is_end() != is_other)
     }
-
-    /// The sign bit for what counts back, from the end.
-    #[inline(always)]
-    pub(crate) const fn sign(self) -> u32 {
-        (self as u32) << 31
-    }
 }
 
 /// A fraction of the exposure, counted from a side. As bits, which order fractions as their numbers do, and are looked

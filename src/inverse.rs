@@ -5,48 +5,37 @@
 //! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`. Go to 10.
 //! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
-//! 4. Else a search begins: `a` becomes a pair of `f32` ([`pair`](crate::number::pair)).
+//! 4. Else a search begins: `a` becomes an integer ([`fixed`](crate::fixed)).
 //! 5. The section where `a` is collected ([`exposure`](crate::exposure)): the plateau gives the time at once. Go to 10.
 //! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
 //! 7. The search starts from the end of the ramp whose mass is nearer, its *anchor*.
-//! 8. The first guess: the least distance at which one term of the mass is enough ([`guess`](crate::search::guess)).
-//! 9. Halley's steps; what they leave, measured in pairs; a last step with a bounded error ([`solve`](crate::search)).
+//! 8. The first guess: the least distance at which one term of the mass is enough ([`search`](crate::search)).
+//! 9. Halley's steps, until what they leave, measured in integers, is within the error.
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` has no earlier time (but for a search that reaches its limit, [`search`](crate::search)): a polynomial
-//! errs by less than half of the distance between neighbouring `u`, a search by less than a quarter, and on the line `A
-//! u` is rounded down.
+//! A greater `u` has no earlier time: a polynomial errs by less than half of the distance between neighbouring `u`, a
+//! search by less than a quarter, and on the line `A u` is rounded down.
 //!
 //! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
 //! 1, too: there the line begins 1/512 from either end.
 
 use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
+use crate::fixed::{FINE, floor_bits};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
-use crate::number::units::{FINE, exponent, fixed_down, fixed_towards_0, floor_bits, power_of_two, time_exponent};
-use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
 use crate::ramp::bezier::CubicBezier;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// The time of 2³² units. A *unit* is the power of two of which the curve's greatest |time|, or its length if that
-    /// is more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
-    time_of_word: f32,
-    /// By side: the bits of the last `f32` below 1 that is at or before the far ramp's join. One with greater bits is
-    /// on the far ramp.
-    line_last_bits: [u32; 2],
-    /// By side: how many `f32` are on the line: the one with `line_last_bits`, and those next below it; 0 without a
-    /// line.
-    line_len: [u32; 2],
-    /// The plateau's line: its time continued to `u = 0`, and its slope, the area.
-    line_base_units: i64,
-    line_slope_units: i64,
-    /// By side: the stored tops of the ramp at the start and of the one at the end, in eighths as [`octave::top`] takes
-    /// them, so that `(bits(top) - bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
-    tops: [[u8; 2]; 2],
+    /// By side: how many `f32` are on the plateau's line; and the bits of the last one, below 1, that is at or before the
+    /// far ramp's join.
+    line_bits: [[u32; 2]; 2],
+    /// By side: the bits of the stored tops of the ramp at the start and of the one at the end. With them `(bits(top) -
+    /// bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
+    tops: [[u32; 2]; 2],
     /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
     octaves: [[Octave; OCTAVES]; 2],
 }
@@ -65,49 +54,21 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         // So a fraction of 0 finds no octave: its index is at least 99, the exponent's bits of the least top, 2⁻²⁸.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let (exposure, shapes) = tried!(Exposure::new(opening, closing));
-        let unit_exponent = time_exponent(exposure.end_time(Start), exposure.end_time(End));
         let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
         let mut this = Self {
             exposure,
-            time_of_word: power_of_two(unit_exponent + 32),
-            line_last_bits: [last_before(from_start[1]), last_before(from_end[1])],
-            line_len: [0; 2],
-            line_base_units: 0,
-            line_slope_units: 0,
+            line_bits: [line_bits(from_start), line_bits(from_end)],
             tops: [[0; 2]; 2],
             octaves: [[Octave::NONE; OCTAVES]; 2],
         };
-        if this.exposure.plateau.hi > 0.0 {
-            // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure.
-            // It is off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes
-            // 2⁸ units or more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
-            let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
-            let first = fixed_down(open, unit_exponent) - fixed_towards_0(shapes[0].area(), unit_exponent);
-            let last = fixed_down(close, unit_exponent) + fixed_towards_0(shapes[1].area(), unit_exponent);
-            (this.line_base_units, this.line_slope_units) = (first, last - first);
-            this.line_len = [
-                this.line_last_bits[0].saturating_sub(last_before_line(from_start[0])),
-                this.line_last_bits[1].saturating_sub(last_before_line(from_end[0])),
-            ];
-        }
         let mut side = 0;
         // `OCTAVES > 0` leaves the code that builds octaves out where there are none.
         while OCTAVES > 0 && side < 2 {
             let octaves = &mut this.octaves[side];
-            this.tops[side] = build::build(&this.exposure, &shapes, unit_exponent, Side::BOTH[side], octaves);
+            this.tops[side] = build::build(&this.exposure, &shapes, Side::BOTH[side], octaves);
             side += 1;
         }
         Ok(this)
-    }
-
-    /// The exponent of a unit.
-    pub(crate) const fn unit_exponent(&self) -> i32 {
-        exponent(self.time_of_word) - 32
-    }
-
-    /// The time of the curve's end at a side, in units.
-    pub(crate) const fn end_units(&self, side: Side) -> i64 {
-        fixed_down(self.exposure.end_time(side), self.unit_exponent())
     }
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
@@ -118,18 +79,13 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // The line counts `u` from the start, up to its last `f32`: so it is tried before the nearer end is known.
         let ramp = match self.section(Start, u.to_bits()) {
-            Section::Line(time) => {
-                return match upper_word(time) {
-                    Some(time) => time as f32 * self.time_of_word,
-                    None => self.rounded_near_0_cold(time),
-                };
-            }
+            Section::Line(time) => return self.rounded(time),
             Section::Ramp(ramp) => ramp,
         };
         let fraction = Fraction::new(u);
         let (time, scale) = match self.by_octave(fraction, ramp) {
             Some(time) => match upper_word(time) {
-                Some(time) => (time as f32, self.time_of_word),
+                Some(time) => (time as f32, self.exposure.time_of_word),
                 None => (self.rounded_near_0(time), 1.0),
             },
             None => (f32::from_bits(self.searched_bits(u)), 1.0),
@@ -162,33 +118,31 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let Section::Ramp(ramp) = self.section(Start, u.to_bits()) else { return None };
         let fraction = Fraction::new(u);
         let is_direct = self.by_octave(fraction, ramp).is_some();
-        if is_direct { None } else { Some(self.exposure.evaluations(fraction)) }
+        if is_direct { None } else { Some(self.exposure.time_units(fraction).1) }
     }
 
     /// The section of a fraction from a side, which has these bits.
     #[inline(always)]
     const fn section(&self, side: Side, bits: u32) -> Section {
-        // On the line: line_last_bits - line_len < bits <= line_last_bits. Greater bits make `until_far` wrap to more
-        // than line_last_bits: with bit 31 set, but for a sign bit. Negative numbers and NaN have no octave on either
-        // ramp.
-        let until_far = self.line_last_bits[side as usize].wrapping_sub(bits);
-        if until_far < self.line_len[side as usize] {
-            let word = in_line_units(bits);
-            // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.
-            Section::Line(self.on_line(if side.is_end() { word.wrapping_neg() } else { word }))
-        } else {
-            Section::Ramp(side.other_if(until_far >> 31 == 1))
+        // Negative numbers, as they count here above all others, and NaN have no octave on either ramp.
+        let [count, last] = self.line_bits[side as usize];
+        // Of greater bits it wraps, and is more than `last`.
+        if last.wrapping_sub(bits) >= count {
+            return Section::Ramp(side.other_if((last.wrapping_sub(bits) as i32) < 0));
         }
+        let word = in_line_units(bits);
+        // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.
+        Section::Line(self.on_line(if side.is_end() { word.wrapping_neg() } else { word }))
     }
 
     /// The time on the plateau's line, in units, at a `u` in units of 2⁻³².
     // proofs/words.py
     #[inline(always)]
     const fn on_line(&self, u: u32) -> i64 {
-        let slope = self.line_slope_units as u64;
+        let slope = self.exposure.line_slope as u64;
         let (high, low) = (slope >> 32, slope & 0xFFFF_FFFF);
         let way = high * u as u64 + ((low * u as u64) >> 32);
-        self.line_base_units.wrapping_add(way as i64)
+        self.exposure.line_base.wrapping_add(way as i64)
     }
 
     /// The time by a polynomial of a ramp, in units.
@@ -206,7 +160,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[inline(always)]
     pub(crate) const fn look_up(&self, fraction: Fraction, ramp: Side) -> Option<(&Octave, i32)> {
         let Fraction { side, bits } = fraction;
-        let top = octave::top(self.tops[side as usize][ramp as usize]);
+        let top = self.tops[side as usize][ramp as usize];
         let below = top.wrapping_sub(bits);
         let index = (below >> 23) as usize;
         if index >= OCTAVES {
@@ -229,7 +183,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[cold]
     #[inline(never)]
     const fn searched_units(&self, fraction: Fraction) -> i64 {
-        self.exposure.moment(fraction).in_units(self.unit_exponent())
+        self.exposure.time_units(fraction).0
     }
 
     /// The time of `u` by a search. Out of line, and with `u` itself: keeping its fraction until here would cost each
@@ -238,12 +192,16 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[cold]
     #[inline(never)]
     fn searched_bits(&self, u: f32) -> u32 {
-        let fraction = if u > 0.5 {
-            Fraction { side: End, bits: (1.0 - u).to_bits() }
+        let (side, a) = if u > 0.5 { (End, 1.0 - u) } else { (Start, u) };
+        let end = self.exposure.end_time(side);
+        if a > 0.0 {
+            let time = self.rounded(self.exposure.time_units(Fraction { side, bits: a.to_bits() }).0);
+            // In units the start is rounded down.
+            let start = self.exposure.end_time(Start);
+            (if time > start { time } else { start }).to_bits()
         } else {
-            Fraction { side: Start, bits: u.to_bits() }
-        };
-        self.exposure.moment(fraction).time().to_bits()
+            end.to_bits()
+        }
     }
 
     /// A time in units, of fewer than 26 bits in its upper word, as an `f32` in the user's unit, rounded once.
@@ -259,58 +217,59 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
         // Two factors: their product may not be normal. The answer is, or 0, as a unit is at least 2⁻¹²⁵.
-        filled as f32 * f32::from_bits((127 - moved - up) << 23) * self.time_of_word
+        filled as f32 * f32::from_bits((127 - moved - up) << 23) * self.exposure.time_of_word
     }
 
-    /// [`rounded_near_0`](Self::rounded_near_0) for the plateau, which seldom needs it.
+    /// A time in units as an `f32` in the user's unit, rounded once.
+    #[inline(always)]
+    fn rounded(&self, time: i64) -> f32 {
+        match upper_word(time) {
+            Some(time) => time as f32 * self.exposure.time_of_word,
+            None => self.rounded_near_0_cold(time),
+        }
+    }
+
+    /// [`rounded_near_0`](Self::rounded_near_0) where it is seldom needed.
     #[cold]
     #[inline(never)]
     fn rounded_near_0_cold(&self, time: i64) -> f32 {
         self.rounded_near_0(time)
     }
 
-    /// No fraction from a side that is above this, up to 1/2, needs a search.
-    pub(crate) const fn least_direct(&self, side: Side) -> f64 {
-        let [near, far] = self.exposure.join_fractions(side);
-        let mut least = self.least_served(side, side.other(), 0.5);
-        if least <= far && near < far && near < least {
-            // The plateau, by its line.
-            if self.line_len[side as usize] == 0 {
-                return least;
-            }
-            least = if near < FINE as f64 { FINE as f64 } else { near };
-        }
-        if least <= far { self.least_served(side, side, least) } else { least }
-    }
-
-    /// [`least_direct`](Self::least_direct), down from `least` by a ramp's octaves, to the first without a polynomial.
-    const fn least_served(&self, side: Side, ramp: Side, mut least: f64) -> f64 {
-        let part = build::range(&self.exposure, side, ramp);
-        let top = octave::top(self.tops[side as usize][ramp as usize]);
-        let mut index = 0;
-        while index < OCTAVES {
-            if let Some(span) = Span::new(part, octave::below(top, index)) {
-                if !self.octaves[side as usize][index].exists() {
-                    break;
+    /// No fraction from a side that is above this, up to 1/2, needs a search: down from 1/2, by the line and by octaves
+    /// as an answer finds them.
+    pub(crate) const fn least_direct(&self, side: Side) -> f32 {
+        let [count, last] = self.line_bits[side as usize];
+        let mut bits = 0.5f32.to_bits();
+        while bits > 0 {
+            let fraction = Fraction { side, bits };
+            let next = match self.section(side, bits) {
+                Section::Line(_) => last - count,
+                Section::Ramp(ramp) => {
+                    let (top, is_far) = (self.tops[side as usize][ramp as usize], !ramp.is(side));
+                    match self.look_up(fraction, ramp) {
+                        Some((octave, _)) if octave.exists() => {
+                            let end = octave::below(top, (top.wrapping_sub(bits) >> 23) as usize + 1);
+                            // A far ramp ends at its join.
+                            if is_far && end < last { last } else { end }
+                        }
+                        _ => break,
+                    }
                 }
-                least = span.from;
-            }
-            index += 1;
+            };
+            bits = next;
         }
-        least
+        f32::from_bits(bits)
     }
 }
 
-/// The bits of the last `f32` at or before a join, but below 1: the fraction 1 has the exact end.
-const fn last_before(join: f64) -> u32 {
-    let (join, before_end) = (floor_bits(join), 1.0f32.to_bits() - 1);
-    if join < before_end { join } else { before_end }
-}
-
-/// The bits of the last `f32` before the line, which begins at a join, but above [`FINE`].
-const fn last_before_line(join: f64) -> u32 {
-    let join = floor_bits(join);
-    if join < FINE.to_bits() { FINE.to_bits() } else { join }
+/// How many `f32` are on the line between two joins, and the bits of its last one. It begins above [`FINE`] and ends
+/// below 1: the fraction 1 has the exact end.
+const fn line_bits([near, far]: [f64; 2]) -> [u32; 2] {
+    let (before, last, before_end) = (floor_bits(near), floor_bits(far), 1.0f32.to_bits() - 1);
+    let last = if last < before_end { last } else { before_end };
+    let before = if before < FINE.to_bits() { FINE.to_bits() } else { before };
+    [last.saturating_sub(before), last]
 }
 
 /// An `f32` above [`FINE`] and below 1, by its bits, in units of 2⁻³².

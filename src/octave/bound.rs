@@ -5,7 +5,7 @@
 //! a polynomial of degree `n < N` is nowhere greater than its greatest sample over `cos(n π / 2N)` (Ehlich and Zeller
 //! 1964).
 
-use crate::number::units::{WORD, fixed_towards_0};
+use crate::fixed::{WORD, fixed_towards_0};
 use crate::octave::Octave;
 use crate::octave::path::absolute;
 

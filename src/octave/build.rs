@@ -1,8 +1,8 @@
 //! The octaves of a side: which part of a ramp each serves. A candidate is kept if it has a certificate.
 
 use crate::exposure::Exposure;
+use crate::fixed::{EIGHTH, FINE, LEAST_TOP, floor_bits};
 use crate::fraction::Side;
-use crate::number::units::{EIGHTH, FINE, LEAST_TOP, floor_bits};
 use crate::octave::candidate::candidate;
 use crate::octave::certificate::certificate;
 use crate::octave::path::{Path, View};
@@ -11,7 +11,8 @@ use crate::octave::{Octave, below};
 use crate::ramp::shape::Shape;
 
 /// By how many eighths a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
-/// last. (The octave at the join is often too much for one; from a raised top it has less of the ramp.) Found by trial.
+/// one that leaves least to a search. (The octave at the join is often too much for a polynomial; from a raised top it
+/// has less of the ramp.) Found by trial.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
 /// The least and the greatest `a` for which a ramp has octaves, at most 1/2; none if they are not in order.
@@ -27,30 +28,17 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
     [0.0, if would_take_plateau { 0.0 } else { to }]
 }
 
-/// Builds the octaves of a side, with `2^unit_exponent` as the unit of time: the far ramp's, then the near ramp's.
-/// Returns the ramps' stored tops ([`octave`](crate::octave)), in [`EIGHTH`]s above [`LEAST_TOP`].
+/// Builds the octaves of a side: the far ramp's, then the near ramp's. Returns the bits of the ramps' stored tops
+/// ([`octave`](crate::octave)).
 // Out of line, with a slice: one copy for any number of octaves.
 #[inline(never)]
-pub(crate) const fn build(
-    exposure: &Exposure,
-    shapes: &[Shape; 2],
-    unit_exponent: i32,
-    side: Side,
-    octaves: &mut [Octave],
-) -> [u8; 2] {
+pub(crate) const fn build(exposure: &Exposure, shapes: &[Shape; 2], side: Side, octaves: &mut [Octave]) -> [u32; 2] {
     let (mut tops, mut first, mut i) = ([0; 2], 0, 0);
     while i < 2 {
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
-        let (top, count) = on_ramp(&View { exposure, shapes, side, ramp, unit_exponent }, rest);
-        // This fits a byte: a stored top is below 8 = 2³, so less than 31 · 8 = 248 eighths above LEAST_TOP = 2⁻²⁸.
-        // - A first top is below 1. The near ramp's is stored times 2ⁿ, if the far ramp has n octaves.
-        // - Let n be at least 1. The far ramp's last top, its first one times 2 / 2ⁿ, is above both joins and above
-        //   LEAST_TOP / 2.
-        // - Let j be the near ramp's join, or the far ramp's if the near one has no octaves. The near ramp's first top
-        //   is below 2 j or 2 LEAST_TOP. So it is below 4 times the far ramp's last top, and times 2ⁿ below 8 times its
-        //   first one.
-        tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / EIGHTH) as u8;
+        let (top, count) = on_ramp(&View { exposure, shapes, side, ramp }, rest);
+        tops[ramp as usize] = top + ((first as u32) << 23);
         first += count;
         i += 1;
     }
@@ -68,29 +56,38 @@ const fn on_ramp(view: &View, octaves: &mut [Octave]) -> (u32, usize) {
         let far = view.exposure.join_fractions(view.side)[1];
         return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
     }
-    let (path, mut trial) = (view.path(), 0);
+    let path = view.path();
+    // Each move until something is missing, then each to its end, then the best again.
+    let (mut trial, mut best, mut most) = (0, 0, 0.0);
     loop {
-        let top = top_beyond(range, MOVES[trial % MOVES.len()]);
-        trial += 1;
-        if let Some(count) = try_top(view, top, trial >= MOVES.len(), range, &path, octaves) {
+        let is_last = trial == 2 * MOVES.len();
+        let tried = if is_last { best } else { trial % MOVES.len() };
+        let top = top_beyond(range, MOVES[tried]);
+        let (count, served, is_whole) = try_top(view, top, trial < MOVES.len(), range, &path, octaves);
+        if is_whole || is_last {
             return (top, count);
         }
+        if trial >= MOVES.len() && served > most {
+            (best, most) = (tried, served);
+        }
+        trial += 1;
     }
 }
 
-/// Builds the octaves on a ramp from a first top on, and returns their number. None at the first that has no
-/// polynomial, unless this is the last try.
+/// Builds the octaves on a ramp from a first top on; on demand only until one has no polynomial. Returns their number,
+/// what part of the exposure their polynomials serve, where that before a first missing one counts 1024 times, and
+/// whether none is missing.
 #[inline(never)]
 const fn try_top(
     view: &View,
     first: u32,
-    is_last: bool,
+    until_missing: bool,
     range: [f64; 2],
     path: &Path,
     octaves: &mut [Octave],
-) -> Option<usize> {
-    let (mut index, mut count) = (0, 0);
-    while index < octaves.len() {
+) -> (usize, f32, bool) {
+    let (mut index, mut count, mut served, mut is_whole) = (0, 0, 0.0, true);
+    while index < octaves.len() && (is_whole || !until_missing) {
         octaves[index] = Octave::NONE;
         let top = below(first, index);
         if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
@@ -101,13 +98,15 @@ const fn try_top(
         }
         if let Some(span) = Span::new(range, top) {
             octaves[index] = certified(view, path, &span);
-            if !octaves[index].exists() && !is_last {
-                return None;
+            if octaves[index].exists() {
+                served += (span.to - span.from as f32) * if is_whole { 1024.0 } else { 1.0 };
+            } else {
+                is_whole = false;
             }
         }
         index += 1;
     }
-    Some(count)
+    (count, served, is_whole)
 }
 
 /// The octave of a span, without a polynomial if the candidate has no certificate.

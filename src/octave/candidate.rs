@@ -1,6 +1,6 @@
 //! A candidate for an octave: the polynomial through the exact times at nine nodes, in the integers of the answer.
 
-use crate::number::units::{exponent, fixed_down, fixed_towards_0, power_of_two_f64};
+use crate::fixed::{exponent, fixed_down, fixed_towards_0, power_of_two_f64};
 use crate::octave::path::{Stretch, View, root, singles, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
@@ -52,30 +52,30 @@ pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Op
         return None;
     }
     let exponent = exponent(most) - 30;
-    let exponent = if exponent < view.unit_exponent { view.unit_exponent } else { exponent };
+    let exponent = if exponent < view.exposure.units().exponent { view.exposure.units().exponent } else { exponent };
     // The factor is an `i32`.
-    if exponent - view.unit_exponent > 30 {
+    if exponent - view.exposure.units().exponent > 30 {
         return None;
     }
     let step = power_of_two_f64(exponent);
-    let factor = 1 << (exponent - view.unit_exponent);
+    let factor = 1 << (exponent - view.exposure.units().exponent);
     let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
     let mut k = DEGREE;
     while k > 0 {
         octave.c[DEGREE - k] = rounded(c[k], exponent);
         k -= 1;
     }
-    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * step, view.unit_exponent);
+    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * step, view.exposure.units().exponent);
     // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }
-    let end = fixed_down(view.exposure.end_time(view.side), view.unit_exponent);
+    let end = fixed_down(view.exposure.end_time(view.side), view.exposure.units().exponent);
     octave.middle = if view.side.is_end() { end - middle } else { end + middle };
     octave.factor = if view.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,
-        middle_time: middle as f64 * power_of_two_f64(view.unit_exponent),
+        middle_time: middle as f64 * power_of_two_f64(view.exposure.units().exponent),
         step,
         slope_bound_steps: slope_bound / step as f32,
         truncation_steps: HALF_TRUNCATION + 3.0 / factor as f32,

@@ -3,7 +3,7 @@
 //! The error in time is bounded from samples ([`bound`](crate::octave::bound)), and so is that error times the openness
 //! over the area, the error in exposure. With what rounding adds, both are held against their limits.
 
-use crate::number::units::{exponent, floor_bits, power_of_two};
+use crate::fixed::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{FIRST_STRIDE, KINDS, POSITION_BITS, SAMPLE_OFF, TIME_BITS, count, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Stretch, View, absolute, scale, singles, value};

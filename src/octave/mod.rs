@@ -29,8 +29,6 @@ pub(crate) mod certificate;
 pub(crate) mod path;
 pub(crate) mod span;
 
-use crate::number::units::{EIGHTH, LEAST_TOP};
-
 /// One octave's polynomial: the time, in units, is `middle + factor · P(x)`. The *offset* `x`, from
 /// -1/2 to 1/2 in units of 2⁻³², is `(position - center) << shift`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,12 +46,6 @@ pub(crate) const DEGREE: usize = 8;
 
 /// The bits of a center that are its shift: an offset counts `2^shift` for a position.
 pub(crate) const SHIFT_MASK: u32 = 31;
-
-/// The bits of a top, by its [`EIGHTH`]s above [`LEAST_TOP`].
-#[inline(always)]
-pub(crate) const fn top(eighths: u8) -> u32 {
-    (eighths as u32 + LEAST_TOP / EIGHTH) * EIGHTH
-}
 
 /// The bits of `top / 2^octaves`, for the bits of `top`; 0 if that is too small.
 pub(crate) const fn below(top: u32, octaves: usize) -> u32 {

@@ -4,8 +4,8 @@
 //! stretches are found by an inverse, and neither has to be exact.
 
 use crate::exposure::Exposure;
+use crate::fixed::WORD;
 use crate::fraction::Side;
-use crate::number::units::WORD;
 use crate::octave::span::Span;
 use crate::ramp::shape::Shape;
 
@@ -22,8 +22,6 @@ pub(crate) struct View<'a> {
     pub(crate) shapes: &'a [Shape; 2],
     pub(crate) side: Side,
     pub(crate) ramp: Side,
-    /// Times in units count `2^unit_exponent`.
-    pub(crate) unit_exponent: i32,
 }
 
 impl View<'_> {

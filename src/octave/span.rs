@@ -1,6 +1,6 @@
 //! A span: the part of an octave that its polynomial serves, and how its positions become offsets.
 
-use crate::number::units::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
+use crate::fixed::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
 use crate::octave::SHIFT_MASK;
 
 /// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. If it halves

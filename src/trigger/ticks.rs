@@ -1,9 +1,9 @@
 //! From fractions of the exposure to the ticks of a timer.
 
 use crate::error::ScheduleError;
+use crate::fixed::DOUBLE_WORD;
 use crate::fraction::{Fraction, Side};
 use crate::inverse::Inverse;
-use crate::number::units::DOUBLE_WORD;
 
 /// An interval has at most 2^`TICK_BITS` ticks: half of what a timer of 32 bits counts, so that the timer tells before
 /// from after.
@@ -27,8 +27,9 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         if n > MOST_TRIGGERS {
             return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
         }
-        let (start, exponent) = (inverse.end_units(Side::Start), inverse.unit_exponent());
-        let length = (inverse.end_units(Side::End) - start) as u64;
+        let curve = &inverse.exposure;
+        let [start, end] = [curve.in_units(curve.end_time(Side::Start)), curve.in_units(curve.end_time(Side::End))];
+        let (length, exponent) = ((end - start) as u64, curve.units().exponent);
         if exponent_of_ticks(length, timer_hz, exponent) > TICK_BITS {
             return Err(too_high(length, timer_hz, exponent));
         }
@@ -120,7 +121,7 @@ pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTA
     let least = if first > last { first } else { last };
     // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed, with a slack of 2⁻²⁴, as
     // fractions are rounded to `f32`. In 2⁻⁶⁴; saturating shows the compiler that the divisor is not 0.
-    let most = (1 << 63) / ((least * DOUBLE_WORD) as u64).saturating_add(1 << 40);
+    let most = (1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40);
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
 

@@ -176,15 +176,15 @@ fn errors_are_measured_in_ulp() {
     assert_eq!(identity(0.5 - 1.5 * f32::EPSILON), 4.0);
     assert_eq!(exact.near(0.5).cdf_ulp(0.5 - 1.5 * f32::EPSILON, 0.5), 2.0);
     assert_eq!(identity(f32::NAN), f64::INFINITY);
-    // Across time 0 the reach is an ulp of the greater end.
-    assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-25) as f32, 0.0), 0.0);
-    assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-23) as f32, 0.0), 1.0);
+    // Next to time 0 the reach is 2⁻⁵³ of the interval.
+    assert_eq!(exact.near(0.0).cdf_ulp(exp2(-53) as f32, 0.0), 0.0);
+    assert_eq!(exact.near(0.0).cdf_ulp(1.5 * exp2(-53) as f32, 0.0), exp2(22));
     assert_eq!([exact.near(0.5).openness_ulp(1.0, 0.0), exact.near(2.0).openness_ulp(0.0, 0.0)], [0.0; 2]);
     assert_eq!(exact.near(0.5).openness_ulp(1f32.next_down(), 0.0), 0.5);
     // The density touches 0 between two samples of time.
     let dip = Exact::new(&Curve::single([(0.0, 0.75), (0.25, -0.25), (0.5, -0.25), (0.75, 0.75)]));
     assert_eq!(dip.near(0.375).openness_ulp(0.0, 0.0), 0.0);
-    // An ulp is at least a floor of the greatest openness.
+    // An ulp is at least a floor.
     let ramp = Exact::new(&Curve::single([(0.0, 0.0), (1.0, 0.0), (2.0, 0.25), (3.0, 0.5)]));
-    assert_eq!(ramp.near(0.0).openness_ulp(0.125, 0.25), 1.0);
+    assert_eq!(ramp.near(0.0).openness_ulp(0.125, 0.125), 1.0);
 }

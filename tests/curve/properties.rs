@@ -107,3 +107,31 @@ fn triggers_return_for_any_numbers() {
         }
     }
 }
+
+/// How many of some fractions are searched for, and the greatest frame that is known to need no search.
+fn served<const OCTAVES: usize>(curve: &Curve) -> (usize, u32) {
+    let ours = build::<OCTAVES>(curve).expect("a shutter");
+    let us = (1..400).map(|i| i as f32 / 400.0);
+    (us.filter(|u| ours.evaluations(*u) > 0).count(), ours.direct_triggers())
+}
+
+/// More octaves never search more, nor lower `direct_triggers`, however the handles lie: of points in whole hundredths.
+#[test]
+fn more_octaves_search_no_more() {
+    for i in 0..700 * times() {
+        let rng = &mut Rng::new(51, i);
+        let mut t = [0; 4].map(|_| rng.below(101) as i32);
+        t.sort();
+        let mut ramp = |from: i32, to: i32, f: [f32; 2]| {
+            let inner = [0; 2].map(|_| (from + rng.below((to - from + 1) as u64) as i32, rng.below(101)));
+            let [b, c] = inner.map(|(t, f)| (t as f32 / 100.0, f as f32 / 100.0));
+            [(from as f32 / 100.0, f[0]), b, c, (to as f32 / 100.0, f[1])]
+        };
+        let curve = Curve::shutter(ramp(t[0], t[1], [0.0, 1.0]), ramp(t[2], t[3], [1.0, 0.0]));
+        if is_valid(&curve) {
+            let served = [served::<2>(&curve), served::<4>(&curve), served::<8>(&curve), served::<12>(&curve)];
+            let is_sorted = served.is_sorted_by(|fewer, more| fewer.0 >= more.0 && fewer.1 <= more.1);
+            assert!(is_sorted, "{served:?}: {curve:?}");
+        }
+    }
+}

@@ -279,9 +279,9 @@ fn time_0_at_half_of_the_light_needs_no_search() {
         let moved = |points: [(f32, f32); 4]| points.map(|(t, f)| (t - middle, f));
         let ours = shutter::<8>(&Curve::shutter(moved(curve.opening), moved(curve.closing)));
         assert!([0.3, 0.4, 0.49, 0.51, 0.7].iter().all(|u| ours.evaluations(*u) == 0), "{name}");
-        // What the tests of searches go by: a search takes one evaluation to come near and one to measure, at least.
+        // What the tests of searches go by: a search takes a step at least.
         let searched = shutter::<0>(&curve);
-        assert!([1e-20, 0.01, 0.1, 0.4, 0.6, 0.99].iter().all(|u| searched.evaluations(*u) >= 2));
+        assert!([1e-14, 0.01, 0.1, 0.4, 0.6, 0.99].iter().all(|u| searched.evaluations(*u) >= 1));
         assert!([0.0, 1.0, -1.0, 2.0, f32::NAN].iter().all(|u| searched.evaluations(*u) == 0));
     }
 }

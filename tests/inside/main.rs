@@ -12,17 +12,17 @@ mod domain;
 mod error;
 #[path = "../../src/exposure.rs"]
 mod exposure;
+#[path = "../../src/fixed.rs"]
+mod fixed;
 #[path = "../../src/fraction.rs"]
 mod fraction;
 #[path = "../../src/inverse.rs"]
 mod inverse;
-#[path = "../../src/number/mod.rs"]
-mod number;
 #[path = "../../src/octave/mod.rs"]
 mod octave;
 #[path = "../../src/ramp/mod.rs"]
 mod ramp;
-#[path = "../../src/search/mod.rs"]
+#[path = "../../src/search.rs"]
 mod search;
 #[path = "../../src/shutter.rs"]
 mod shutter;
@@ -34,7 +34,6 @@ mod support;
 
 mod bound;
 mod certificate;
-mod left;
 mod product;
 mod units;
 

@@ -1,6 +1,6 @@
 //! Times in whole units.
 
-use crate::number::units::{fixed_down, power_of_two_f64};
+use crate::fixed::{fixed_down, power_of_two_f64};
 use crate::support::curves::Rng;
 
 /// Rounded down on either side of time 0, so that times keep their order across it.

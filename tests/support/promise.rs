@@ -10,8 +10,11 @@ use super::cases::shutter;
 use super::curves::{Rng, around, neighbours};
 use super::oracle::{Curve, Dd, Exact, Near, exp2, ulp_f32};
 
-/// In ulp of u.
+/// In ulp of u, or of [`BACKWARD_FLOOR`] where that is more.
 pub const BACKWARD: f64 = 0.5;
+/// The least fraction of a frame, and its ulp.
+pub const LEAST_FRACTION: f32 = 1.0 / (1 << 23) as f32;
+pub const BACKWARD_FLOOR: f64 = 1.0 / (1u64 << 46) as f64;
 /// On typical curves, in ulp of the time; and its mean over the named ones.
 pub const FORWARD: f64 = 0.69;
 pub const FORWARD_MEAN: f64 = 0.215;
@@ -21,8 +24,12 @@ pub const VALUE: f64 = 1.0;
 pub const SCALAR: f64 = 1.0;
 /// An ulp of the cdf is at least that of this.
 pub const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
-/// An ulp of the openness and the pdf is at least this share of the greatest on their ramp.
-pub const DENSITY_FLOOR: f64 = 1.0 / (1u64 << 38) as f64;
+/// By so many such ulp the cdf may fall from one time to the next.
+pub const CDF_STEP_BACK: f64 = 1.0;
+/// An ulp of the openness is at least this, one of the pdf this over the exposure.
+pub const DENSITY_FLOOR: f64 = 1.0 / (1u64 << 57) as f64;
+/// How far an openness at an end of the curve may be from its control point.
+pub const END_OPENNESS: f64 = 1.0 / (1u64 << 60) as f64;
 /// In ticks, from the exact time of a fraction within [`TRIGGER_ULP`] or [`EDGE_ULP`] of the one that is asked for.
 pub const TICK: f64 = 0.52;
 /// In ulp of the lesser of the fraction and its rest to 1: half for the `f32`, and half for the inverse.
@@ -41,6 +48,17 @@ pub const RATES: [u32; 8] = [1, 1000, 48_000, 1_000_000, 7, 1009, 65_537, 999_98
 pub const EVALUATIONS: u32 = 12;
 /// Of an octave's polynomial, in ulp of u: what its certificate allows.
 pub const DIRECT: f64 = 0.49;
+
+/// A backward error in ulp of `u`, or of [`BACKWARD_FLOOR`] where that is more.
+fn floored(u: f32, backward: f64) -> f64 {
+    let ulp = ulp_f32(f64::from(u));
+    backward * ulp / ulp.max(BACKWARD_FLOOR)
+}
+
+/// By how many ulp a cdf falls.
+fn falls_by_ulps(from: f32, to: f32) -> f64 {
+    (f64::from(from) - f64::from(to)) / ulp_f32(f64::from(to).max(CDF_FLOOR))
+}
 
 /// The worst that was seen, and what broke a promise.
 #[derive(Clone, Debug, Default)]
@@ -120,9 +138,10 @@ impl Figures {
             let errors = exact.judge_for(u, t, time);
             let at = || format!("u = {u:e}: {t:e}, {OCTAVES} octaves, {evaluations} evaluations, {errors:?}");
             self.samples += 1;
-            self.backward = self.backward.max(errors.backward);
+            let backward = floored(u, errors.backward);
+            self.backward = self.backward.max(backward);
             self.evaluations = self.evaluations.max(evaluations);
-            if questions.is_typical && time.hi != 0.0 {
+            if questions.is_typical && time.hi != 0.0 && u >= LEAST_FRACTION {
                 self.forward = self.forward.max(errors.forward);
                 self.forward_sum += errors.forward;
                 self.forward_samples += 1;
@@ -131,9 +150,9 @@ impl Figures {
             // A polynomial's is less, so that neighbours cannot change places.
             let most = if evaluations == 0 { DIRECT } else { BACKWARD };
             if evaluations == 0 {
-                self.direct = self.direct.max(errors.backward);
+                self.direct = self.direct.max(backward);
             }
-            self.expect("backward error", errors.backward <= most, at, exact);
+            self.expect("backward error", backward <= most, at, exact);
             self.expect("step back", t >= last, at, exact);
             let most = if curve.opening[3].1 < 1.0 { MAX_EVALUATIONS } else { EVALUATIONS };
             self.expect("evaluations", evaluations <= most, at, exact);
@@ -160,7 +179,7 @@ impl Figures {
             self.density = self.density.max(density[0]).max(density[1]);
             self.expect("cdf", cdf <= VALUE, at, exact);
             self.expect("pdf and openness", density.iter().all(|error| *error <= VALUE), at, exact);
-            self.expect("cdf's step back", value >= last, at, exact);
+            self.expect("cdf's step back", falls_by_ulps(last, value) <= CDF_STEP_BACK, at, exact);
             last = value;
         }
         for (got, true_value) in [
@@ -181,7 +200,8 @@ impl Figures {
         // Where the curve starts and ends it may jump, and any value would do there: but it is its first and its last.
         let outer = [(curve.opening, curve.opening[0]), (curve.closing, curve.closing[3])];
         for (ramp, (t, f)) in outer {
-            let holds = ramp[0].0 == ramp[3].0 || ours.openness(t) == f;
+            let off = f64::from(ours.openness(t)) - f64::from(f);
+            let holds = ramp[0].0 == ramp[3].0 || off.abs() <= END_OPENNESS;
             self.expect("openness at an end", holds, || format!("{t:e}"), exact);
         }
     }
@@ -262,7 +282,7 @@ impl Figures {
         for &(u, time) in questions.us.iter().filter(|(u, _)| 1.0 - (1.0 - *u) == *u) {
             let [t, back] = [ours.inverse_cdf(u), -mirrored.inverse_cdf(1.0 - u)];
             let at = || format!("u = {u:e}: {t:e} and {back:e}");
-            let is_right = exact.judge_for(u, back, time).backward <= BACKWARD;
+            let is_right = floored(u, exact.judge_for(u, back, time).backward) <= BACKWARD;
             self.expect("mirrored", t == back || is_right, at, exact);
         }
         let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
@@ -329,7 +349,8 @@ impl Figures {
             for t in around(place, count as usize) {
                 let cdf = direct.cdf(t);
                 let at = || format!("{cdf:e} after {last:e} at {t:e}");
-                self.expect("cdf's step back between neighbours", cdf >= last && cdf <= 1.0, at, exact);
+                let holds = falls_by_ulps(last, cdf) <= CDF_STEP_BACK && cdf <= 1.0;
+                self.expect("cdf's step back between neighbours", holds, at, exact);
                 (last, self.pairs) = (cdf, self.pairs + 1);
             }
         }
@@ -539,7 +560,7 @@ pub fn tick_error(exact: &Exact, tick: u32, u: Dd, hz: u32, ulp: f64) -> f64 {
         return error;
     }
     let lesser = u.min(Dd::ONE - u);
-    let forgiven = Dd::from(ulp * ulp_f32(lesser.hi.max(0.0)));
+    let forgiven = Dd::from(ulp * ulp_f32(lesser.hi.max(0.0)).max(BACKWARD_FLOOR));
     (delay(u - forgiven) - tick).max(tick - delay(u + forgiven)).max(0.0)
 }
 

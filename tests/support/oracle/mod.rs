@@ -211,8 +211,6 @@ fn cubic(d: [Dd; 3]) -> [Dd; 3] {
 struct Ramp {
     ends: [End; 2],
     mass: Dd,
-    /// The greatest openness on the ramp.
-    greatest: f64,
 }
 
 /// A place on a ramp: the end from which it counts, and the distance.
@@ -227,9 +225,7 @@ impl Ramp {
         let [a, b, c, d] = points;
         let ends = [End::new(points, 1.0), End::new([d, c, b, a], -1.0)];
         let mass = ends[0].mass.at(Dd::ONE);
-        let mut ramp = Self { ends, mass, greatest: 0.0 };
-        ramp.greatest = ramp.turns().iter().fold(0.0, |most, turn| most.max(turn[1].hi));
-        ramp
+        Self { ends, mass }
     }
 
     fn is_empty(&self) -> bool {
@@ -554,7 +550,8 @@ impl Exact {
     }
 }
 
-/// The cdf and the openness at five times within an ulp of one, each found when it is first asked for.
+/// The cdf and the openness at five times within an ulp of one, or within 2⁻⁵³ of the interval where that is more; each
+/// found when it is first asked for.
 pub struct Near<'a> {
     exact: &'a Exact,
     t: f32,
@@ -568,13 +565,12 @@ impl Near<'_> {
         value_ulp(got, values, |value| ulp_f32(value.max(floor)))
     }
 
-    /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least `floor` of the ramp's greatest
-    /// openness.
+    /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least `floor`.
     pub fn openness_ulp(&self, got: f32, floor: f64) -> f64 {
         self.density_ulp(got, Dd::ONE, floor)
     }
 
-    /// The same of a pdf.
+    /// The same of a pdf; an ulp is at least `floor` over the exposure.
     pub fn pdf_ulp(&self, got: f32, floor: f64) -> f64 {
         self.density_ulp(got, self.exact.normalization(), floor)
     }
@@ -583,22 +579,27 @@ impl Near<'_> {
         let (exact, t) = (self.exact, Dd::from(self.t));
         let samples = self.values().map(|[_, openness]| openness);
         // Between two samples the openness may have an extremum, or a ramp its end.
-        let reach = exact.ulp_of_time(t);
+        let reach = self.reach();
         let turns = exact.turns.iter().filter(|turn| (turn[0] - t).hi.abs() <= reach);
         let values = samples.chain(turns.map(|turn| turn[1])).map(|f| f * scale);
-        let ramp = if exact.opens_at(t) { &exact.opening } else { &exact.closing };
-        let least = floor * ramp.greatest * scale.hi;
+        let least = floor * scale.hi;
         value_ulp(got, values, |value| ulp_f32(value).max(least))
+    }
+
+    fn reach(&self) -> f64 {
+        let curve = &self.exact.curve;
+        let interval = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        ulp_f32(f64::from(self.t)).max(interval * exp2(-53))
     }
 
     /// From the middle outwards: most answers are settled after few.
     fn values(&self) -> impl Iterator<Item = [Dd; 2]> {
         let (exact, middle) = (self.exact, Dd::from(self.t));
-        let ulp = exact.ulp_of_time(middle);
+        let reach = self.reach();
         let parts = [0.0, -1.0, 1.0, -0.5, 0.5].into_iter();
         parts.zip(&self.values).map(move |(part, values)| {
             *values.get_or_init(|| {
-                let t = middle + Dd::from(part * ulp);
+                let t = middle + Dd::from(part * reach);
                 let place = exact.place(t);
                 [exact.masses_at(t, place)[0] / exact.area, exact.openness_at(place)]
             })

@@ -1,0 +1,142 @@
+//! Fixed point: the units in which all is counted, as 64-bit integers, and the product of two of them.
+//!
+//! | counted | from 0 at | to |
+//! |---|---|---|
+//! | a fraction of the exposure, a mass | an end of the curve or of a ramp | [`ONE`], 2⁶², the whole exposure |
+//! | a time, *in units* | time 0 | ±2⁶² at the curve's greatest time ([`Units`]) |
+//! | a way, the time since an end, *in fine units* | an end of the curve or of a ramp | 2⁶², the whole interval |
+//! | a place along a ramp, unsigned | one of its ends | 2⁶⁴ at the other |
+
+/// The whole exposure.
+pub(crate) const ONE: i64 = 1 << 62;
+
+/// How many values a `u32` has, and a `u64`.
+pub(crate) const WORD: f32 = power_of_two(32);
+pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
+
+/// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`inverse`](crate::inverse)).
+pub(crate) const FINE: f32 = 1.0 / 512.0;
+
+/// The bits of 2⁻²², the least top of an octave. A frame's fractions are at least 2⁻²³ from either end of the curve.
+pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 22) as f32).to_bits();
+/// The bits of tops are multiples of this, an eighth of a power of two, so that each top fits a `u8`.
+pub(crate) const EIGHTH: u32 = 1 << 20;
+
+/// `a x / 2⁶⁴`, low by less than 3: each of three products is rounded down, the fourth left out. For an `a` of at least
+/// 0 it never falls as `a` or `x` grows.
+#[inline(always)]
+pub(crate) const fn times(a: i64, x: u64) -> i64 {
+    let (high, low) = (a >> 32, a as u64 & 0xFFFF_FFFF);
+    let (x_high, x_low) = (x >> 32, x & 0xFFFF_FFFF);
+    high * x_high as i64 + ((high * x_low as i64) >> 32) + ((low * x_high) >> 32) as i64
+}
+
+/// `a x / 2^(64 - shift)`, rounded down, for a `shift` of up to 31.
+#[inline(always)]
+pub(crate) const fn times_up(a: i64, x: u64, shift: u32) -> i64 {
+    let (high, low) = (a >> 32, a as u64 & 0xFFFF_FFFF);
+    let (x_high, x_low) = (x >> 32, x & 0xFFFF_FFFF);
+    let lower = high * x_low as i64 + ((low * x_low) >> 32) as i64;
+    let middle = (low * x_high) + (lower as u64 & 0xFFFF_FFFF);
+    let whole = high * x_high as i64 + (lower >> 32) + (middle >> 32) as i64;
+    whole << (shift & 31) | (middle as u32 as u64 >> ((32 - shift) & 63)) as i64
+}
+
+/// The units of a curve's times.
+#[derive(Clone, Copy)]
+pub(crate) struct Units {
+    /// A *unit* is `2^exponent`. The curve's greatest |time|, or its interval if that is longer, has 2⁶¹ to 2⁶².
+    pub(crate) exponent: i32,
+    /// A *fine unit* is `2^(exponent - fine)`. The interval has 2⁶¹ to 2⁶². By `domain::LEAST_INTERVAL`, `fine` is at
+    /// most 17.
+    pub(crate) fine: u32,
+}
+
+impl Units {
+    pub(crate) const fn new(start: f32, end: f32) -> Self {
+        const fn exponent(x: f64) -> i32 {
+            (x.to_bits() >> 52) as i32 - 1023 - 61
+        }
+        let (start, end) = (start as f64, end as f64);
+        let most = if start.abs() > end.abs() { start.abs() } else { end.abs() };
+        let most = if end - start > most { end - start } else { most };
+        Self { exponent: exponent(most), fine: (exponent(most) - exponent(end - start)) as u32 }
+    }
+
+    /// A time in units, rounded down. It is exact where `fine` is 2 or more: no time is then nearer to 0 than a fourth
+    /// of the greatest.
+    #[inline(always)]
+    pub(crate) const fn of(self, time: f32) -> i64 {
+        fixed_down(time, self.exponent)
+    }
+
+    /// From units to fine units.
+    #[inline(always)]
+    pub(crate) const fn refined(self, units: i64) -> i64 {
+        units << (self.fine & 31)
+    }
+
+    /// From fine units to units, rounded down.
+    #[inline(always)]
+    pub(crate) const fn coarsened(self, way: i64) -> i64 {
+        way >> (self.fine & 31)
+    }
+}
+
+/// `x / 2^e`, which has to be below 2⁶³, rounded down; `e` is at least -125, so a subnormal `x` is less than one.
+// proofs/words.py: fixed_down
+pub(crate) const fn fixed_down(x: f32, e: i32) -> i64 {
+    let significand = ((x.to_bits() & 0x7F_FFFF | 1 << 23) as i64) << 39;
+    let down = 62 + e - exponent(x);
+    // Down by 63 or more: -1 or 0.
+    (if x < 0.0 { -significand } else { significand }) >> (if down < 63 { down & 63 } else { 63 })
+}
+
+/// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN.
+// proofs/words.py: fixed_towards_0
+#[inline(never)]
+pub(crate) const fn fixed_towards_0(x: f64, e: i32) -> i64 {
+    let bits = x.to_bits();
+    let significand = (bits & ((1 << 52) - 1) | 1 << 52) as i64;
+    let up = (bits >> 52 & 0x7FF) as i32 - 1075 - e;
+    let units = if up > 10 {
+        i64::MAX
+    } else if up >= 0 {
+        significand << (up & 63)
+    } else if up > -64 {
+        significand >> (-up & 63)
+    } else {
+        0
+    };
+    if (bits as i64) < 0 { -units } else { units }
+}
+
+/// The bits of the greatest `f32` at or below `x`, which is from 0 to about 1.
+// proofs/words.py: floor_bits
+#[inline(never)]
+pub(crate) const fn floor_bits(x: f64) -> u32 {
+    let rounded = x as f32;
+    let bits = rounded.to_bits();
+    if rounded as f64 > x { bits - 1 } else { bits }
+}
+
+/// `x` in single precision, within an ulp and a half; or within 2⁸, if it is negative. By words, as an FPU converts
+/// those.
+#[inline(always)]
+pub(crate) const fn single(x: i64) -> f32 {
+    (x >> 32) as i32 as f32 * WORD + x as u32 as f32
+}
+
+/// `2^n`, a normal number.
+pub(crate) const fn power_of_two(n: i32) -> f32 {
+    f32::from_bits(((n + 127) as u32) << 23)
+}
+
+pub(crate) const fn power_of_two_f64(n: i32) -> f64 {
+    f64::from_bits(((1023 + n) as u64) << 52)
+}
+
+/// `floor(log2 |x|)` of a normal `x`; -127 of a subnormal one or 0.
+pub(crate) const fn exponent(x: f32) -> i32 {
+    (x.to_bits() >> 23 & 0xFF) as i32 - 127
+}

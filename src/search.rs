@@ -1,0 +1,175 @@
+//! A polynomial of the place along a ramp, and the search for the place where it reaches a target.
+//!
+//! A search guesses where one term alone reaches the target ([`guess`]), and takes a step of Halley's, whose slopes are
+//! in single precision. Then it measures in fixed point what is missing, and ends if that is within the error. Else it
+//! takes a step again. From [`FREE_STEPS`] on it halves a bracket instead. So it always ends, within its error or at two
+//! neighbouring places.
+
+use crate::fixed::{WORD, power_of_two, single, times, times_up};
+
+/// After so many steps each further one halves a bracket. Few searches take as many.
+const FREE_STEPS: u32 = 16;
+/// After a step of more than this share of the place, the next one needs no measuring.
+const FAR: f32 = 0.25;
+/// The most steps of a search. Each step evaluates a ramp's integral once.
+pub const MAX_EVALUATIONS: u32 = FREE_STEPS + 65;
+/// Within this error, a search for a mass always ends: between neighbouring places the mass grows by less than twice
+/// as much, less what [`Series::at`] is low by (proofs/search.py).
+pub(crate) const LEAST_ERROR: i64 = 1 << 12;
+
+/// A polynomial of the place `p`, which counts as 0 to 1 here: `c[0] p + c[1] p² + ...`.
+pub(crate) struct Series<'a, const N: usize> {
+    /// The coefficients, in `2^shift`. The sum of their sizes is below 2⁶³.
+    pub(crate) c: &'a [i64; N],
+    pub(crate) shift: u32,
+}
+
+impl<const N: usize> Series<'_, N> {
+    /// The value at a place; low by less than `6 · 2^shift` times the place, and 1.
+    #[inline(always)]
+    pub(crate) const fn at(&self, p: u64) -> i64 {
+        let (mut sum, mut k) = (self.c[N - 1], N - 1);
+        while k > 0 {
+            k -= 1;
+            sum = times(sum, p) + self.c[k];
+        }
+        // The last product keeps its bits.
+        times_up(sum, p, self.shift)
+    }
+
+    /// The place where the series, which grows from 0, reaches a target, within an error; and the evaluations.
+    #[inline(always)]
+    pub(crate) const fn solve(&self, target: i64, error: i64) -> (u64, u32) {
+        if target <= error {
+            return (0, 0);
+        }
+        let (mut c, mut k) = ([0.0; N], 0);
+        while k < N {
+            c[k] = single(self.c[k]);
+            k += 1;
+        }
+        let unit = power_of_two(-(self.shift as i32));
+        let sought = single(target) * unit;
+        let guess = guess(&c, sought);
+        // Not to the other end, where the slope may be 0. A later step may lead there, and the next one back.
+        let mut p = place(if guess < 0.75 { guess } else { 0.75 });
+        let (mut low, mut high, mut evaluations) = (0, u64::MAX, 0);
+        let (mut left, mut is_far) = (0.0, true);
+        loop {
+            evaluations += 1;
+            let x = single_place(p);
+            if is_far {
+                left = sought - value(&c, x);
+            }
+            let step = step(&c, x, left);
+            let size = place(step.abs());
+            let room = if step < 0.0 { p } else { u64::MAX - p };
+            let size = if size < room { size } else { room / 2 };
+            p = if step < 0.0 { p - size } else { p + size };
+            is_far = evaluations < FREE_STEPS && step.abs() > FAR * x;
+            if is_far {
+                continue;
+            }
+            if evaluations >= FREE_STEPS {
+                p = low + (high - low) / 2;
+            }
+            let missing = target - self.at(p);
+            let size = missing.abs();
+            if size <= error || evaluations >= MAX_EVALUATIONS {
+                return (p, evaluations);
+            }
+            if evaluations >= FREE_STEPS {
+                *(if missing > 0 { &mut low } else { &mut high }) = p;
+            }
+            left = single(size) * if missing > 0 { unit } else { -unit };
+        }
+    }
+}
+
+/// A place from single precision; 1 and more is the greatest.
+#[inline(always)]
+const fn place(x: f32) -> u64 {
+    let x = x * WORD;
+    let high = x as u32;
+    (high as u64) << 32 | ((x - high as f32) * WORD) as u32 as u64
+}
+
+#[inline(always)]
+const fn single_place(p: u64) -> f32 {
+    ((p >> 32) as u32 as f32 + p as u32 as f32 / WORD) / WORD
+}
+
+#[inline(always)]
+const fn value<const N: usize>(c: &[f32; N], x: f32) -> f32 {
+    let (mut value, mut k) = (0.0, N);
+    while k > 0 {
+        k -= 1;
+        value = (value + c[k]) * x;
+    }
+    value
+}
+
+/// Halley's step from `x` for what is missing there of `Σ c[k - 1] x^k`: `n / (1 + b)`, with Newton's step `n` and
+/// `b = n d2 / d1`, the slope and half the second derivative. Up to `b = 1/2` it is `n (1 - b + b²)`, since a division
+/// is slow. Beyond, that would grow again, and a search might swing. It multiplies `x` by 1/4 to 2.5, since Newton
+/// overshoots where the slope dips ahead.
+#[inline(always)]
+const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
+    let (mut d1, mut d2, mut k) = (c[N - 1] * N as f32, 0.0, N - 1);
+    while k > 0 {
+        d2 = d2 * x + d1;
+        d1 = d1 * x + c[k - 1] * k as f32;
+        k -= 1;
+    }
+    // Towards the target, even if rounding makes the slope negative.
+    let inverse = 1.0 / d1.abs();
+    let newton = missing * inverse;
+    let bend = 0.5 * d2 * newton * inverse;
+    if bend > 0.5 { newton / (1.0 + bend) } else { newton * (1.0 - bend * (1.0 - bend)) }
+}
+
+// The first guess: an increasing `Σ c_k x^k` reaches `sought` near the least of the `(sought / c_k)^(1/k)` over the
+// positive coefficients. The bits of an `f32`, taken as an integer, are nearly its logarithm, so a root is a quotient
+// of integers. That is good to about a tenth, and one step of Halley's makes it a thousandth.
+
+/// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
+const LOG_ONE: i32 = 1 << 20;
+
+/// [`power`] comes out too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as
+/// often too small as too great.
+const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
+
+/// `2³⁰ / k`, rounded up, for `k` from 1 to 6.
+const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
+
+/// The place at which the series with the coefficients `c` reaches about `sought`.
+const fn guess(c: &[f32], sought: f32) -> f32 {
+    let log = rough_log(sought);
+    let (mut least, mut i) = (i32::MAX, 0);
+    while i < c.len() {
+        let root = divided(log - rough_log(c[i]), i as i32 + 1);
+        least = if root < least { root } else { least };
+        i += 1;
+    }
+    power(least - MIDDLE)
+}
+
+/// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand. 0 is taken
+/// for 2⁻¹²⁷, and a negative number for far less: the root of such a coefficient is too great to be the least.
+const fn rough_log(x: f32) -> i32 {
+    (x.to_bits() as i32 >> 3) - 127 * LOG_ONE
+}
+
+/// `x / k` within 4/3 of its last place, for `k` from 1 to 6 and the difference `x` of two logarithms. (The compiler
+/// would check the divisor of a division.)
+// proofs/guess.py: divided
+const fn divided(x: i32, k: i32) -> i32 {
+    (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
+}
+
+/// The number with this linear logarithm, at least 0; beyond all `f32` it is infinite or NaN.
+const fn power(log: i32) -> f32 {
+    let log = log + 127 * LOG_ONE;
+    let log = if log < 0 { 0 } else { log };
+    f32::from_bits(if log < 1 << 28 { (log as u32) << 3 } else { f32::INFINITY.to_bits() })
+}
