@@ -15,11 +15,18 @@ use crate::trace::{Frame, Pulses};
 /// The fits of a frame; `progress` is told the share that is done, as far as that is known.
 pub fn fits(pulses: &Pulses, frame: &Frame, mains: Option<f64>, progress: &mut dyn FnMut(f64)) -> FrameFits {
     let mut fits = columns::fits(pulses, frame, mains, progress);
-    if structure(&fits, Kind::Free).test.explained {
+    let is_explained = |fits: &FrameFits| structure(fits, Kind::Free).test.explained;
+    if is_explained(&fits) {
         return fits;
     }
+    if let Some(others) = columns::coupled_twice(&fits) {
+        fits = others;
+        if is_explained(&fits) {
+            return fits;
+        }
+    }
     // A lamp's flicker is looked for where there is something to explain, and taken where it explains that.
-    if let Some(others) = columns::flickering(&fits).filter(|others| structure(others, Kind::Free).test.explained) {
+    if let Some(others) = columns::flickering(&fits).filter(is_explained) {
         return others;
     }
     // What the freest curve misses is no noise, and counts for none of it.

@@ -25,13 +25,12 @@ const WIDE: f64 = 0.02;
 pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -> Vec<Warning> {
     // The sampling interval in seconds.
     let step = fits.step * fits.units.pulse;
-    // What a capacitor bends may pass for a hum.
-    let is_bent = fit.warnings.iter().any(|w| matches!(w, Warning::Undershoot { .. }));
     let is_pulsed = fit.warnings.iter().any(|w| matches!(w, Warning::Pulsed { .. }));
     let doubts = [
-        clipped(fit).or_else(|| saturated(fit, fits)),
-        if is_bent { None } else { hum(fit, fits) },
+        clipped(fit, fits).or_else(|| saturated(fit, fits)),
+        hum(fit, fits),
         flicker(fit),
+        coupled(fit),
         if frame.is_cut { cut_tail(fit, fits) } else { None },
         slow_tail(fit, fits),
         drift(fit, fits),
@@ -45,9 +44,9 @@ pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -
 }
 
 /// Many samples at the greatest value, where the dark shows that the noise is more than a step of the values.
-fn clipped(fit: &Fit) -> Option<Warning> {
-    let Signal { dark, gain, .. } = fit.best().signal;
-    let values = &fit.samples.values;
+fn clipped(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
+    let Signal { dark, gain, .. } = fits.of(fit.chosen).solution.signal;
+    let values: &Vec<f64> = &fits.samples.iter().map(|bin| bin.mean).collect();
     let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let light = values.iter().filter(|v| **v > dark + 0.5 * gain).count();
     let at_top = values.iter().filter(|v| **v == top).count();
@@ -60,7 +59,7 @@ fn clipped(fit: &Fit) -> Option<Warning> {
     let share = at_top as f64 / light.max(1) as f64;
     let noise_shows = (same as f64) < 0.45 * low.len() as f64;
     (at_top >= 5 && share > 0.05 && noise_shows && heaps)
-        .then_some(Warning::Clipped { share, at: fit.as_measured(top) })
+        .then_some(Warning::Clipped { share, at: fit.as_measured(fits.units.value(top)) })
 }
 
 /// Next to no noise in full light, where the dark has some: an amplifier at its end passes none.
@@ -108,6 +107,11 @@ fn hum(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
 fn flicker(fit: &Fit) -> Option<Warning> {
     let flicker = fit.best().signal.flicker?;
     Some(Warning::Flicker { hertz: flicker.frequency, amplitude: flicker.amplitude() })
+}
+
+fn coupled(fit: &Fit) -> Option<Warning> {
+    let [Some(first), second] = fit.best().signal.coupling?.rates else { return None };
+    Some(Warning::Coupled { seconds: 1.0 / first, second: second.map(|rate| 1.0 / rate) })
 }
 
 /// A signal that still falls at the end of the trace, where it did not in the dark before.

@@ -4,9 +4,9 @@ use crate::bins::{self, Bin};
 use crate::curve::{Exposure, Whole, fractions};
 use crate::noise::{self, slow_correlation};
 use crate::search::every_kind;
-use crate::signal::{Kind, Signal};
+use crate::signal::{Coupling, Kind, Signal};
 use crate::solve::{Held, Problem, Solution};
-use crate::trace::{Crossings, Frame, Pulses, sampling_interval};
+use crate::trace::{Crossings, Frame, Pulses, Rates, Trace, sampling_interval, undone};
 use crate::units::Units;
 
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl FrameFits {
     pub fn new(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Self {
         let units = Units::new(frame, pulses.levels);
         let crossings = units.crossings(frame);
-        let trace = units.inside(pulses.trace.part(&frame.samples));
+        let trace = units.inside(pulses.recorded().part(&frame.samples));
         let step = sampling_interval(&trace.times);
 
         let samples = bins::each(&trace);
@@ -45,7 +45,13 @@ impl FrameFits {
         let (kinds, correlation) = (Vec::new(), 1.0);
         let mut fits = Self { units, samples, step, problem, crossings, kinds, correlation, rounding };
 
-        fits.search(&Signal::plain(), progress);
+        let coupled = |(_, rates): &(_, Rates)| Coupling {
+            charge: 0.0,
+            rates: rates.map(|rate| rate.map(|rate| rate * units.pulse)),
+            held: false,
+        };
+        let coupling = pulses.coupled.as_ref().map(coupled);
+        fits.search(&Signal { coupling, ..Signal::plain() }, progress);
         fits
     }
 
@@ -66,17 +72,41 @@ impl FrameFits {
         }
     }
 
+    /// The same with another fit of the freest kind.
+    pub fn with(&self, free: KindFit) -> Self {
+        let mut others = self.clone();
+        others.correlation = slow_correlation(&free.residuals);
+        others.kinds[Kind::Free as usize] = free;
+        others
+    }
+
     /// Each sample as an openness, by a kind's levels, drift, hum and flicker.
     pub fn opened(&self, kind: Kind) -> Vec<f64> {
         let fitted = self.of(kind);
         let signal = fitted.solution.signal;
         let integral = self.exposure(kind);
-        let each = self.samples.iter().zip(&fitted.residuals);
+        let mut missed = fitted.residuals.clone();
+        for rate in signal.coupling.iter().flat_map(Coupling::rates) {
+            let mut charge = 0.0;
+            for (bin, r) in self.samples.iter().zip(&mut missed) {
+                // A capacitor takes its share of what is missed as well.
+                charge += rate * bin.width() * *r;
+                *r += charge - 0.5 * rate * bin.width() * *r;
+            }
+        }
+        let each = self.samples.iter().zip(missed);
         each.map(|(bin, r)| {
             let lamp = signal.lamp(bin.middle(), bin.width());
             integral.mean(bin.from, bin.to) + r / (signal.gain * lamp.max(0.1))
         })
         .collect()
+    }
+
+    /// The fitted samples with what the freest kind's capacitors took, and with the dark at its first level.
+    pub fn uncoupled(&self, recorded: Trace) -> Trace {
+        let Signal { dark, coupling, .. } = self.units.outside(&self.of(Kind::Free).solution.signal);
+        let Some(Coupling { charge, rates, .. }) = coupling else { return recorded };
+        undone(&recorded, rates, dark + charge)
     }
 
     /// The samples, as far as neighbours share a bin.

@@ -44,7 +44,7 @@ mod units;
 
 use std::borrow::Cow;
 
-use crate::trace::{Frame, Light, Pulses, Refusal, Timing, Trace, Warning, median, pulses, undone};
+use crate::trace::{Frame, Light, Pulses, Refusal, Timing, Trace, Warning, guessed, median, pulses, start, undone};
 pub use curve::Curve;
 pub use delay::{Delay, Sync};
 pub use errors::Measured;
@@ -92,8 +92,10 @@ impl Record {
 /// By how much the exposures of records differ, as a share of the shortest, and is that so little that they are of one
 /// setting?
 pub fn setting(records: &[Record]) -> (f64, bool) {
-    let differ = shots::apart(records.iter().map(Record::exposure));
-    (differ, differ <= shots::ALIKE)
+    let exposures = records.iter().map(Record::exposure);
+    let (low, high) = exposures.fold((f64::INFINITY, 0.0), |(low, high), x| (x.min(low), x.max(high)));
+    let differ = high / low - 1.0;
+    (differ, differ <= delay::ALIKE)
 }
 
 /// Fits a trace. `progress` is told the share that is done.
@@ -128,10 +130,16 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
     let Shot { record, pulses, frame } = shots[asked];
     let gap = shots::gaps(pulses, frame)?;
     let counted = Frames::new(&frames, asked);
-    let differ = shots::differ(&frames, pulses.relative_noise());
+    let differ = shots::differ(&frames, counted.scatter, pulses.relative_noise());
     let fits = &choice::fits(pulses, frame, options.mains, progress);
     progress(1.0);
 
+    let is_explained = || structure::structure(fits, Kind::Free).test.explained;
+    if pulses.bent && fits.of(Kind::Free).solution.signal.coupling.is_none()
+        || (pulses.bent || pulses.coupled.is_some()) && !is_explained()
+    {
+        return Err(Refusal::Coupled);
+    }
     let candidates = choice::candidates(fits, n);
     let (chosen, reason) = choice::choose(options, &candidates, fits);
     let peak = outcome::peak(options.full, pulses, &candidates[chosen as usize])?;
@@ -179,7 +187,7 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
         nominal: None,
         reading: None,
         warnings: pulses.warnings.clone(),
-        samples: pulses.trace.part(&frame.samples),
+        samples: fits.uncoupled(pulses.recorded().part(&frame.samples)),
         inverted: pulses.inverted,
         middle: fits.units.seconds(0.0),
     };
@@ -223,15 +231,24 @@ impl<'a> Shot<'a> {
     }
 }
 
-/// The pulses of the trace; those without a capacitor before the recorder, where the dark asks for that.
+/// The pulses of the trace; those without a capacitor before the recorder, where one takes much of the light.
 fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     let plain = pulses(trace, light);
-    let is_sound = !matches!(plain, Err(Refusal::Unsound | Refusal::TooFewSamples { .. }));
-    let coupled = if is_sound && light == Light::Auto { undone(trace) } else { None };
-    let Some((mut pulses, seconds, error)) = coupled else { return plain };
-    pulses.warnings.push(Warning::Coupled { seconds });
-    // Under the pulse and behind it the level is off by what its charge is not known to.
-    let open = pulses.frames.iter().map(|frame| frame.exposure).fold(0.0, f64::max);
-    pulses.rounding = pulses.rounding.hypot(0.15 * error * open / seconds * pulses.light());
-    Ok(pulses)
+    let may_be_coupled = match &plain {
+        Ok(pulses) => pulses.bent,
+        Err(refusal) => !matches!(refusal, Refusal::Unsound | Refusal::TooFewSamples { .. } | Refusal::NoPulse { .. }),
+    };
+    let coupled = may_be_coupled.then(|| coupled(trace, light)).flatten();
+    coupled.filter(|coupled| !coupled.bent).map_or(plain, Ok)
+}
+
+fn coupled(trace: &Trace, light: Light) -> Option<Pulses> {
+    let rates = guessed(trace)?;
+    let mut found = pulses(&undone(trace, rates, start(trace)), light).ok()?;
+    let sign = if found.inverted { -1.0 } else { 1.0 };
+    let mut left = found.trace.times.iter().peekable();
+    let recorded = trace.times.iter().zip(&trace.values).filter(|(t, _)| left.next_if_eq(t).is_some());
+    let (times, values) = recorded.map(|(t, v)| (*t, sign * v)).unzip();
+    found.coupled = Some((Trace { times, values }, rates));
+    Some(found)
 }

@@ -147,7 +147,25 @@ impl Flicker {
     }
 }
 
-/// `v = dark + gain f(t) (1 + flicker(t)) + drift t + hum(t)`
+/// A recorder that is coupled by capacitors, one behind the other: each takes its charge `q` away, which follows what
+/// comes in as `dq/dt = rate (x - q)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// By how much the dark begins below where it ends: what the first holds of light that came before.
+    pub charge: f64,
+    /// One over a time constant, of the first and perhaps of a second.
+    pub rates: [Option<f64>; 2],
+    /// The rates are known, and not fitted.
+    pub held: bool,
+}
+
+impl Coupling {
+    pub(super) fn rates(&self) -> impl Iterator<Item = f64> + use<> {
+        self.rates.into_iter().flatten()
+    }
+}
+
+/// `v = dark + gain f(t) (1 + flicker(t)) + drift t + hum(t)`, where a coupling lets only changes of the light pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Signal {
     /// Which curves it may have.
@@ -164,11 +182,15 @@ pub struct Signal {
     pub hum: Option<Hum>,
     /// Of the light.
     pub flicker: Option<Flicker>,
+    /// Of the light, with its flicker.
+    pub coupling: Option<Coupling>,
 }
 
 /// A range that a parameter stays in.
 pub type Bounds = (f64, f64);
 const ANY: Bounds = (f64::NEG_INFINITY, f64::INFINITY);
+/// Of a capacitor, by pulses: one that is faster passes nothing but edges.
+const RATES: Bounds = (0.0, 20.0);
 
 impl Signal {
     /// A box in the frame's own units, as the crossings have it.
@@ -181,6 +203,7 @@ impl Signal {
             drift: None,
             hum: None,
             flicker: None,
+            coupling: None,
         }
     }
 
@@ -203,6 +226,10 @@ impl Signal {
         packed.extend(self.drift);
         packed.extend(self.hum.iter().flat_map(|hum| [hum.frequency, hum.cosine, hum.sine]));
         packed.extend(self.flicker.iter().flat_map(|flicker| flicker.terms));
+        if let Some(coupling) = self.coupling {
+            packed.push(coupling.charge);
+            packed.extend(coupling.rates());
+        }
         packed
     }
 
@@ -222,6 +249,10 @@ impl Signal {
                 Hum { frequency, cosine, sine, ..hum }
             }),
             flicker: self.flicker.map(|flicker| Flicker { terms: flicker.terms.map(|_| next()), ..flicker }),
+            coupling: self.coupling.map(|Coupling { rates, held, .. }| {
+                let charge = next();
+                Coupling { charge, rates: rates.map(|rate| rate.map(|_| next())), held }
+            }),
         }
     }
 
@@ -233,6 +264,11 @@ impl Signal {
         }
         if let Some(hum) = self.hum {
             bounds[self.kind.parameters() + 2 + self.drift.map_or(0, |_| 1)] = hum.range;
+        }
+        if let Some(coupling) = self.coupling {
+            let first = bounds.len() - coupling.rates().count();
+            let of = |rate| if coupling.held { (rate, rate) } else { RATES };
+            bounds[first..].iter_mut().zip(coupling.rates()).for_each(|(bound, rate)| *bound = of(rate));
         }
         bounds
     }
@@ -251,7 +287,20 @@ impl Signal {
 
     /// What works the signal's means out.
     pub(super) fn means(&self) -> Means<'_> {
-        Means { signal: self, exposure: Exposure::new(&self.curve), last: None }
+        let stages = self.coupling.iter().flat_map(Coupling::rates);
+        let stages = stages.map(|rate| Stage { rate, charge: 0.0, moves: vec![0.0; self.len()] });
+        let mut means = Means {
+            signal: self,
+            exposure: Exposure::new(&self.curve),
+            last: None,
+            stages: stages.collect(),
+            until: f64::INFINITY,
+        };
+        if let (Some(coupling), Some(first)) = (self.coupling, means.stages.first_mut()) {
+            let place = first.moves.len() - 1 - coupling.rates().count();
+            (first.charge, first.moves[place]) = (coupling.charge, 1.0);
+        }
+        means
     }
 }
 
@@ -261,36 +310,68 @@ pub struct Means<'a> {
     exposure: Exposure,
     /// Where the last interval ended, and what is collected by then: mostly the next one begins there.
     last: Option<(f64, Collected)>,
+    /// The capacitors, one behind the other, and where the last interval ended.
+    stages: Vec<Stage>,
+    until: f64,
+}
+
+/// A capacitor.
+struct Stage {
+    rate: f64,
+    /// Its charge, and how that moves with each parameter.
+    charge: f64,
+    moves: Vec<f64>,
+}
+
+impl Stage {
+    /// The mean that passes it in an interval of this width, of so much that comes in; `moves` are those of what comes
+    /// in, and become those of what passes. `place` is that of its rate. It counts as even over the interval: the
+    /// squares of a ramp's own steps are left out, of which the other ramp has as many.
+    fn pass(&mut self, width: f64, mean: f64, moves: &mut [f64], place: usize) -> f64 {
+        let z = self.rate * width;
+        let keeps = (-z).exp();
+        // The share that passes of what comes in beyond the charge, and its slope.
+        let (passes, slope) = if z < 1e-4 {
+            (1.0 - 0.5 * z, -0.5 + z / 3.0)
+        } else {
+            let passes = -(-z).exp_m1() / z;
+            (passes, (keeps - passes) / z)
+        };
+        let beyond = mean - self.charge;
+        for (each, charge) in moves.iter_mut().zip(&mut self.moves) {
+            let (comes, held) = (*each, *charge);
+            *each = passes * (comes - held);
+            *charge = comes + keeps * (held - comes);
+        }
+        moves[place] += width * slope * beyond;
+        self.moves[place] += width * keeps * beyond;
+        self.charge = mean - keeps * beyond;
+        passes * beyond
+    }
 }
 
 impl Means<'_> {
     /// The mean over [`from`, `to`], how it moves with each parameter, and the first of these that it moves with: where
     /// the curve is flat, none of the curve's.
+    ///
+    /// A coupling asks for the intervals in order.
     pub fn over(&mut self, from: f64, to: f64, moves: &mut [f64]) -> (f64, usize) {
-        let Signal { kind, dark, gain, drift, hum, flicker, .. } = *self.signal;
-        let width = to - from;
-        let middle = 0.5 * (from + to);
-        let lamp = self.signal.lamp(middle, width);
-        // In the order of `Signal::pack`.
-        let (of_curve, beside) = moves.split_at_mut(kind.parameters());
+        let Signal { kind, dark, drift, hum, coupling, .. } = *self.signal;
+        let (width, middle) = (to - from, 0.5 * (from + to));
         let is_flat = self.exposure.is_flat(from, to);
-        let openness = if is_flat {
-            of_curve.fill(0.0);
-            self.exposure.mean(from, to)
-        } else {
-            let start = match self.last {
-                Some((end, collected)) if end == from => collected,
-                _ => self.exposure.collected(from),
-            };
-            let end = self.exposure.collected(to);
-            self.last = Some((to, end));
-            let each = std::array::from_fn(|k| gain * lamp / width * (end.moves[k] - start.moves[k]));
-            kind.gather(&each, of_curve);
-            (end.amount - start.amount) / width
-        };
-        let (levels, mut columns) = beside.split_at_mut(2);
-        levels.copy_from_slice(&[1.0, openness * lamp]);
-        let mut mean = dark + gain * openness * lamp;
+        let gap = from - self.until;
+        if gap > 1e-6 * width && !self.stages.is_empty() {
+            // What comes in a gap charges as well.
+            let light = self.light(self.until, from, moves);
+            self.coupled(gap, light, moves);
+        }
+        self.until = to;
+        let light = self.light(from, to, moves);
+        let mut mean = dark + self.coupled(width, light, moves);
+        // In the order of `Signal::pack`.
+        let places = kind.parameters();
+        moves[places] = 1.0;
+        let mut columns = &mut moves[places + 2..];
         if let Some(drift) = drift {
             columns[0] = middle;
             columns = &mut columns[1..];
@@ -299,13 +380,48 @@ impl Means<'_> {
         if let Some(hum) = hum {
             let (value, moves) = hum.mean(middle, width);
             columns[..3].copy_from_slice(&moves);
-            columns = &mut columns[3..];
             mean += value;
         }
-        if let Some(flicker) = flicker {
-            let waves = flicker.waves(middle, width);
-            columns.copy_from_slice(&waves.map(|wave| gain * openness * wave));
+        if let Some(coupling) = coupling {
+            mean += coupling.charge;
+            moves[moves.len() - 1 - self.stages.len()] += 1.0;
         }
-        (mean, if is_flat { kind.parameters() } else { 0 })
+        (mean, if is_flat && self.stages.is_empty() { places } else { 0 })
+    }
+
+    /// The light's mean alone, and how it moves.
+    fn light(&mut self, from: f64, to: f64, moves: &mut [f64]) -> f64 {
+        let Signal { kind, gain, drift, hum, flicker, .. } = *self.signal;
+        let (width, middle) = (to - from, 0.5 * (from + to));
+        let lamp = self.signal.lamp(middle, width);
+        moves.fill(0.0);
+        let (of_curve, beside) = moves.split_at_mut(kind.parameters());
+        let is_flat = self.exposure.is_flat(from, to);
+        let openness = if is_flat {
+            self.exposure.mean(from, to)
+        } else {
+            let start = match self.last {
+                Some((end, collected)) if end == from => collected,
+                _ => self.exposure.collected(from),
+            };
+            let end = self.exposure.collected(to);
+            let each = std::array::from_fn(|k| gain * lamp / width * (end.moves[k] - start.moves[k]));
+            kind.gather(&each, of_curve);
+            self.last = Some((to, end));
+            (end.amount - start.amount) / width
+        };
+        beside[1] = openness * lamp;
+        if let Some(flicker) = flicker {
+            let columns = &mut beside[2 + drift.map_or(0, |_| 1) + hum.map_or(0, |_| 3)..][..4];
+            columns.copy_from_slice(&flicker.waves(middle, width).map(|wave| gain * openness * wave));
+        }
+        gain * openness * lamp
+    }
+
+    /// What passes the capacitors of that.
+    fn coupled(&mut self, width: f64, light: f64, moves: &mut [f64]) -> f64 {
+        let first = moves.len() - self.stages.len();
+        let stages = self.stages.iter_mut().enumerate();
+        stages.fold(light, |light, (k, stage)| stage.pass(width, light, moves, first + k))
     }
 }

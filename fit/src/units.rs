@@ -1,6 +1,6 @@
 //! A frame's own units: time counts from the pulse's middle in pulses, the signal from the dark in light.
 
-use crate::signal::{Flicker, Hum, Signal};
+use crate::signal::{Coupling, Flicker, Hum, Signal};
 use crate::trace::{Crossings, Frame, Trace};
 
 /// What leads from a frame's units to seconds and the trace's own unit, and back.
@@ -34,6 +34,11 @@ impl Units {
         self.middle + self.pulse * t
     }
 
+    /// A value in the trace's own unit from one in light.
+    pub fn value(&self, share: f64) -> f64 {
+        self.dark + self.light * share
+    }
+
     /// A part of the trace in these units.
     pub fn inside(&self, part: Trace) -> Trace {
         let value = |v: f64| (v - self.dark) / self.light;
@@ -58,6 +63,11 @@ impl Units {
                 sine: sine * self.light,
             }),
             flicker: signal.flicker.map(|lamp| Flicker { frequency: lamp.frequency / self.pulse, ..lamp }),
+            coupling: signal.coupling.map(|Coupling { charge, rates, held }| Coupling {
+                held,
+                charge: charge * self.light,
+                rates: rates.map(|rate| rate.map(|rate| rate / self.pulse)),
+            }),
         }
     }
 }

@@ -3,4 +3,3 @@
 pub(crate) mod iterator;
 pub(crate) mod pulse;
 pub(crate) mod ticks;
-pub(crate) mod timed;

@@ -7,5 +7,4 @@ mod oracle_check;
 mod promises;
 mod properties;
 mod refusals;
-mod slips;
 mod ticks;

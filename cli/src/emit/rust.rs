@@ -155,11 +155,11 @@ pub fn due(edge: {int}) -> impl ExactSizeIterator<Item = {item}> {{
 fn shutter(plan: &Plan) -> String {
     format!(
         "
-use shutter_curve::{{ShutterCurve, expect}};
+use shutter_curve::{{ShutterCurve, expect_valid}};
 
 /// The shutter, its times in seconds.
 {TABLE}
-pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::{});
+pub static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::{});
 ",
         constructor(&plan.shape)
     )

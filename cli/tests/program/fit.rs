@@ -86,26 +86,13 @@ fn bounces(t: f64) -> f64 {
     trapezoid(t) * (1.0 - 0.3 * (9000.0 * t).sin().powi(2))
 }
 
-/// The least of many samples lies far below the dark by noise alone; what a capacitor does is told, and is no hum.
+/// The least of many samples lies far below the dark by noise alone.
 #[test]
-fn noise_is_no_undershoot_and_an_undershoot_is_no_hum() {
-    let is_undershoot = |w: &Warning| matches!(w, Warning::Undershoot { .. });
+fn noise_is_no_capacitor() {
     for n in [200, 300] {
         let noisy = plainly(&sampled(trapezoid, n, 0.17));
-        assert!(!told(&noisy, is_undershoot), "{n}: {:?}", noisy.warnings);
+        assert!(!told(&noisy, |w| matches!(w, Warning::Coupled { .. })), "{n}: {:?}", noisy.warnings);
     }
-    // A pole of 1 ms, which is not undone where the way of light is given.
-    let options = Options { light: Light::Up, ..Options::default() };
-    let mut coupled = sampled(|t| trapezoid(2.0 * t - 0.006), 800, 0.0);
-    let (mut last, mut held, mut random) = (coupled.values[0], 0.0, Random::new(1));
-    for v in &mut coupled.values {
-        held = (held + *v - last) * (-0.015f64).exp();
-        last = std::mem::replace(v, held + 0.01 * random.normal());
-    }
-    let coupled = fitted(&coupled, &options).unwrap();
-    assert!(told(&coupled, is_undershoot), "{:?}", coupled.warnings);
-    assert!(coupled.best().signal.hum.is_some(), "it was to pass for one");
-    assert!(!told(&coupled, |w| matches!(w, Warning::Hum { .. })), "{:?}", coupled.warnings);
 }
 
 /// What lies before the opening is not said to come so many ns after it.
@@ -456,7 +443,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
         ("1e308,-1e308\n".repeat(100).into(), "no column holds times"),
         ("1,2,3\n".repeat(100).into(), "no column holds times"),
         (timed("NaN").into(), "100 of 100 rows"),
-        (timed("1e308").into(), "no finite number up to 1e30"),
+        (timed("1e308").into(), "beyond"),
         ("0.5\n".repeat(100).into(), "give the sampling rate"),
     ] {
         let said = refused(&bytes);
@@ -771,7 +758,7 @@ fn a_window_and_the_zero_of_time_are_kept_to() {
     // The rows are counted, and nothing says from when.
     let reason = "--sync: times are counted from the first row";
     folder.refuses(&[("fit rated.csv --to 10ms --sync 0", reason)]);
-    folder.write("zero.csv", format!("Sample rate: 100 kHz\nHOffset,-1.5e-3\nA\n{text}"));
+    folder.write("zero.csv", format!("Sample rate: 100 kHz\nTrigger point,150\nA\n{text}"));
     let json = folder.json("zero.csv --to 8ms --sync 0");
     assert!((number(&json, "delay_s") - 0.0005).abs() < 1e-5, "{json}");
 }

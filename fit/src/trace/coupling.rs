@@ -1,94 +1,77 @@
-//! A recorder that is coupled by a capacitor: one high-pass pole, whose time constant is the one that makes the dark
-//! after the pulse what it was before, undone.
+//! A recorder that is coupled by capacitors (AC, a sound card): how fast they charge, roughly, and the light without
+//! them. That finds the pulses, and shows them; what is fitted are the samples as they are, with the capacitors in the
+//! model.
 //!
-//! Such a recorder shows `y = x - q`, where the capacitor's charge `q` grows by `y/tau` in a unit of time. So `x` is
-//! `y` and the integral of `y` over `tau`; in the dark that has to be one level.
+//! Such a recorder shows `y = x - q`, where the charge `q` grows by `rate y` in a unit of time. So `x` is `y` and the
+//! integral of `y` times the rate.
 
-use super::pulse::{Light, Pulses, pulses};
-use super::samples::Trace;
+use super::pulse::noise;
+use super::samples::{Trace, median, range};
 use crate::noise::mean;
-use crate::solve::Cholesky;
 
-/// The dark on either side is looked at in so many parts.
-const PARTS: usize = 16;
-/// The square sum of the dark has to fall so far by it, against a drift's, that chance does not do that: by five
-/// standard deviations.
-const FALLS: f64 = 3.0;
-/// A pulse's tails are no dark: so many pulses on either side are left out.
-const ROOM: f64 = 0.15;
+/// The corners that are tried, in hertz: so many, from the lowest on, by this factor.
+const CORNERS: (usize, f64, f64) = (24, 0.5, 1.25);
+/// Samples are taken together until so many are left.
+const MOST: usize = 20_000;
+/// A second capacitor has to leave so much less.
+const LESS: f64 = 0.9;
+/// So many time constants at a level within so many standard deviations of the noise are the dark.
+const SETTLED: f64 = 15.0;
+const QUIET: f64 = 5.0;
 
-/// The pulses with the coupling undone, its time constant in seconds and its relative error; none where the dark does
-/// not ask for it.
-pub fn undone(trace: &Trace) -> Option<(Pulses, f64, f64)> {
-    let Trace { times, values } = trace;
-    let n = times.len();
-    let few = (n / 50).max(3);
-    let (first, last) = (mean(&values[..few]), mean(&values[n - few..]));
-    let integral = integral(times, values, first);
-    // A first guess, from the ends alone.
-    let whole = mean(&integral[n - few..]);
-    let rate = (first - last) / whole;
-    if !(rate > 0.0 && rate.is_finite()) {
-        return None;
-    }
-    let guess = pulses(&with(trace, &integral, rate, 0.0), Light::Auto).ok()?;
-    let (start, end) = (guess.frames.first()?.crossings[0], guess.frames.last()?.crossings[5]);
-    let room = ROOM * (end - start);
-    let is_dark = |t: f64| t < start - room || t > end + room;
-    let parts = [0..times.partition_point(|t| is_dark(*t) && *t < end), times.partition_point(|t| *t <= end + room)..n];
-    // Time counts from the middle, in units of the whole.
-    let unit = times[n - 1] - times[0];
-    let mut rows = Vec::new();
-    for part in parts {
-        if part.len() < 2 * PARTS {
-            return None;
+/// The rates of one capacitor or of two, each one over a time constant.
+pub type Rates = [Option<f64>; 2];
+
+/// The rates with which the light comes nearest to a signal of two levels.
+pub fn guessed(trace: &Trace) -> Option<Rates> {
+    let together = trace.times.len().div_ceil(MOST);
+    let few = |values: &[f64]| values.chunks_exact(together).map(mean).collect();
+    let few = Trace { times: few(&trace.times), values: few(&trace.values) };
+    let level = start(&few);
+    let left = |rates: Rates| {
+        let values = undone(&few, rates, level).values;
+        let (low, high) = range(&values);
+        let sign = if high - level > level - low { 1.0 } else { -1.0 };
+        let light: Vec<f64> = values.iter().map(|v| sign * (v - level)).collect();
+        let most = range(&light).1;
+        let full = median(light.iter().copied().filter(|v| *v >= 0.5 * most).collect());
+        light.iter().map(|v| v.abs().min((v - full).abs())).sum::<f64>() / full
+    };
+    let (count, lowest, factor) = CORNERS;
+    let rate = |k: usize| Some(std::f64::consts::TAU * lowest * factor.powi(k as i32));
+    let best = |all: &mut dyn Iterator<Item = Rates>| {
+        all.map(|rates| (left(rates), rates)).filter(|it| it.0.is_finite()).min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let one = best(&mut (0..count).map(|k| [rate(k), None]))?;
+    let two = best(&mut (0..count).flat_map(|a| (0..=a).map(move |b| [rate(a), rate(b)])))?;
+    Some(if two.0 < LESS * one.0 { two.1 } else { one.1 })
+}
+
+/// The level at the beginning.
+pub fn start(trace: &Trace) -> f64 {
+    mean(&trace.values[..(trace.values.len() / 50).max(3)])
+}
+
+/// The light, where all began at this `level`. After so long at it that nothing is left of a charge, none is, whatever
+/// the noise has added up to.
+pub fn undone(trace: &Trace, rates: Rates, level: f64) -> Trace {
+    let Trace { times, mut values } = trace.clone();
+    let settled = SETTLED / rates.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let quiet = QUIET * noise(&values);
+    let mut since = times[0];
+    let settles = times.iter().zip(&values).map(|(t, v)| {
+        since = if (v - level).abs() > quiet { *t } else { since };
+        t - since > settled
+    });
+    let settles: Vec<bool> = settles.collect();
+    for rate in rates.into_iter().flatten() {
+        let (mut charge, mut before) = (0.0, values[0] - level);
+        for k in 1..times.len() {
+            let now = values[k] - level;
+            charge += 0.5 * rate * (times[k] - times[k - 1]) * (now + before);
+            charge = if settles[k] { 0.0 } else { charge };
+            (before, values[k]) = (now, values[k] + charge);
         }
-        let length = part.len() / PARTS;
-        for k in 0..PARTS {
-            let few = part.start + k * length..part.start + (k + 1) * length;
-            let time = (mean(&times[few.clone()]) - times[0]) / unit;
-            rows.push(([1.0, time, mean(&integral[few.clone()]) / whole], mean(&values[few])));
-        }
     }
-    let (_, by_drift) = least_squares::<2>(&rows.iter().map(|(x, y)| ([x[0], x[1]], *y)).collect::<Vec<_>>())?;
-    let ([_, slope, step], by_pole) = least_squares(&rows)?;
-    let rate = -step / whole;
-    let is_asked_for = rate > 0.0 && by_drift > FALLS * by_pole && rate * unit < 100.0;
-    if !is_asked_for {
-        return None;
-    }
-    let found = pulses(&with(trace, &integral, rate, slope / unit), Light::Auto).ok()?;
-    let error = (by_pole / (by_drift - by_pole) / (rows.len() - 3) as f64).sqrt();
-    (!found.frames.is_empty()).then_some((found, 1.0 / rate, error))
-}
-
-/// What has come above a level by each sample's time.
-fn integral(times: &[f64], values: &[f64], level: f64) -> Vec<f64> {
-    let mut sum = 0.0;
-    let mut sums = vec![0.0];
-    for k in 1..times.len() {
-        sum += (times[k] - times[k - 1]) * (0.5 * (values[k] + values[k - 1]) - level);
-        sums.push(sum);
-    }
-    sums
-}
-
-fn with(trace: &Trace, integral: &[f64], rate: f64, slope: f64) -> Trace {
-    let Trace { times, values } = trace;
-    let undone = |k: usize| values[k] + rate * integral[k] - slope * (times[k] - times[0]);
-    Trace { times: times.clone(), values: (0..times.len()).map(undone).collect() }
-}
-
-/// What a `y` is made of.
-type Row<const N: usize> = ([f64; N], f64);
-
-/// How much of each `y` is made of, and the sum of squares that is left.
-fn least_squares<const N: usize>(rows: &[Row<N>]) -> Option<([f64; N], f64)> {
-    let sum = |of: &dyn Fn(&Row<N>) -> f64| rows.iter().map(of).sum::<f64>();
-    let cell = |i: usize, j: usize| sum(&|(x, _)| x[i] * x[j]);
-    let normal = (0..N).map(|i| (0..N).map(|j| cell(i, j)).collect()).collect();
-    let right: Vec<f64> = (0..N).map(|i| sum(&|(x, y)| x[i] * y)).collect();
-    let found: [f64; N] = Cholesky::new(normal)?.solve(&right).try_into().ok()?;
-    let missed = |(x, y): &Row<N>| y - x.iter().zip(found).map(|(x, by)| x * by).sum::<f64>();
-    Some((found, sum(&|row| missed(row).powi(2))))
+    Trace { times, values }
 }

@@ -21,7 +21,7 @@ mod told;
 mod wav;
 
 pub use asked::{Column, Options};
-pub(crate) use coupling::undone;
+pub(crate) use coupling::{Rates, guessed, start, undone};
 pub use edges::Switch;
 pub(crate) use edges::{Edge, Edges, Starts, edges};
 pub use preview::{Preview, preview};

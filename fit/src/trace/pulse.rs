@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use serde::Deserialize;
 
+use super::coupling::Rates;
 use super::samples::{CONTRAST, LARGEST, Trace, median, range, sampling_interval};
 use super::told::{Refusal, Warning};
 
@@ -73,8 +74,12 @@ pub struct Frame {
 /// What is known of a trace before a model is fitted.
 #[derive(Clone, Debug)]
 pub struct Pulses {
-    /// The trace without its spikes; what light lowers is turned round.
+    /// The trace without its spikes; what light lowers is turned round; what a capacitor takes is back.
     pub trace: Trace,
+    /// The same as it was recorded, where capacitors take much of it, and roughly their rates.
+    pub(crate) coupled: Option<(Trace, Rates)>,
+    /// Is it on both sides of the dark, as behind a capacitor?
+    pub(crate) bent: bool,
     /// Does light lower the signal as it was measured?
     pub inverted: bool,
     /// The level in the dark, and how much the light adds.
@@ -93,7 +98,15 @@ impl Pulses {
     /// Moves all times.
     pub(crate) fn shift(&mut self, by: f64) {
         self.trace.shift(by);
+        if let Some((recorded, _)) = &mut self.coupled {
+            recorded.shift(by);
+        }
         self.frames.iter_mut().for_each(|frame| frame.crossings.iter_mut().for_each(|t| *t += by));
+    }
+
+    /// The same, as the recorder shows it.
+    pub(crate) fn recorded(&self) -> &Trace {
+        self.coupled.as_ref().map_or(&self.trace, |(recorded, _)| recorded)
     }
 
     /// How much the light adds to the dark.
@@ -142,7 +155,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
         return Err(Refusal::NoPulse { contrast });
     }
     let levels = (smooth.dark, smooth.light());
-    warnings.extend(smooth.undershoot(levels.1));
+    let bent = smooth.undershoots(levels.1);
 
     let share: Vec<f64> = smooth.values.iter().map(|v| (v - levels.0) / levels.1).collect();
     let mut runs = runs(&share);
@@ -162,7 +175,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     if inverted && light == Light::Auto {
         warnings.push(Warning::Inverted);
     }
-    Ok(Pulses { trace, inverted, levels, noise, rounding, frames, warnings })
+    Ok(Pulses { trace, coupled: None, bent, inverted, levels, noise, rounding, frames, warnings })
 }
 
 /// What no arithmetic would survive.
@@ -336,10 +349,9 @@ impl Smooth {
     }
 
     /// Light moves a signal one way only, unless a capacitor takes the mean away.
-    fn undershoot(&self, light: f64) -> Option<Warning> {
+    fn undershoots(&self, light: f64) -> bool {
         let below = self.dark - range(&self.values).0;
-        let is_more_than_noise = below - STRAY * self.noise > UNDERSHOOT * light;
-        is_more_than_noise.then_some(Warning::Undershoot { share: below / light })
+        below - STRAY * self.noise > UNDERSHOOT * light
     }
 }
 

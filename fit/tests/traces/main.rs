@@ -4,7 +4,6 @@
 #[allow(dead_code)]
 #[path = "../../src/curve.rs"]
 mod curve;
-#[allow(dead_code)]
 #[path = "../../src/trace/names.rs"]
 mod names;
 #[allow(dead_code)]
@@ -15,6 +14,7 @@ mod numbers;
 mod ramp;
 use shutter_fit::unit;
 
+mod capacitors;
 mod exports;
 mod families;
 mod files;

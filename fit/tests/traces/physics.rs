@@ -13,8 +13,9 @@ use shutter_fit::trace::{Trace, Warning};
 use shutter_fit::{From, Options, Sync, fit};
 use strum::IntoEnumIterator;
 
-use crate::families::{Family, Measured, measured};
-use crate::generator::{Disturbance, Random, SHUTTERS, Shutter, asked, case, each, quantile};
+use crate::capacitors;
+use crate::families::{Family, Measured, Openness, measured};
+use crate::generator::{Disturbance, Random, SHUTTERS, Shutter, asked, case, each, quantile, traced, truth};
 use crate::unseen::{self, Instrument, Mechanics};
 
 /// Results beyond these, as shares of the exposure, are wrong: of the triggers, of the exposure.
@@ -375,5 +376,75 @@ fn slow_noise_is_no_hum() {
         let shutter = SHUTTERS[i as usize % SHUTTERS.len()];
         let fit = case(shutter, Disturbance::Pink, &mut Random::new(83_000 + i)).fitted(&Options::default());
         assert!(fit.warnings.iter().all(|it| !it.code().contains("hum")), "{i}: {:?}", fit.warnings);
+    }
+}
+
+/// 600 records of 1/f noise of both makes: how many are wrong, and how many silently.
+#[test]
+#[ignore = "some minutes: 1/f noise, for docs/internals/fit.md"]
+fn pink_records() {
+    let seed = asked("SEED", 1);
+    println!("\n{HEAD}");
+    let of = |case: &Measured, noise: f64| {
+        let mut row = row(case);
+        row.is_allowed = row.triggers < (2.0 * noise).max(WRONG.0) && row.exposure < (2.0 * noise).max(WRONG.1);
+        row
+    };
+    let sines = each(300, |k| {
+        let what = Mechanics::iter().nth(k as usize % 12).unwrap();
+        let (case, noise) =
+            unseen::measured(what, Instrument::Sines, &mut Random::new(seed + 5_000_000 + u64::from(k)));
+        of(&case, noise)
+    });
+    print("1/f on unseen mechanics", &sines);
+    let pink = each(300, |k| {
+        let shutter = SHUTTERS[k as usize % SHUTTERS.len()];
+        let mut random = Random::new(seed + 6_000_000 + u64::from(k));
+        let made = truth(shutter, &mut random);
+        let n = random.scale(400.0, 4000.0) as usize;
+        let noise = random.scale(0.003, 0.02);
+        let case = traced(made, Disturbance::Pink, n, noise, &mut random);
+        let truth = Openness::new(|t| case.truth.openness(t));
+        of(&Measured { truth, trace: case.trace, scale: case.scale, others: Vec::new() }, noise)
+    });
+    print("1/f on the model's own", &pink);
+}
+
+/// A leaf shutter behind no capacitor, one or two, of these frequencies in hertz: several exposures in seconds, windows
+/// from 70 ms to the whole file, both polarities, one shot and three.
+fn capacitor_rows(poles: &[f64], exposures: &[f64], seed: u64) -> Vec<Row> {
+    let of = |exposure: &f64| {
+        let windows = [(0.05, 0.02 + exposure), (0.05, 0.9), (0.3, 0.3), (0.01 + exposure, 0.02 + 2.0 * exposure)];
+        let single = windows.into_iter().flat_map(|window| [(window, 1, false), (window, 1, true)]);
+        let all: Vec<_> = single.chain([((0.1, 0.2), 3, false)]).collect();
+        each(all.len() as u32, |k| {
+            let (window, shots, falls) = all[k as usize];
+            let mut random = Random::new(seed + (1e6 * exposure) as u64 + u64::from(k));
+            row(&capacitors::measured(*exposure, poles, window, shots, falls, &mut random))
+        })
+    };
+    exposures.iter().flat_map(of).collect()
+}
+
+#[test]
+#[ignore = "some minutes: the table of capacitors, for docs/internals/fit.md"]
+fn capacitor_table() {
+    println!("\n{HEAD}");
+    let sets: [&[f64]; 9] = [&[], &[2.0], &[5.0], &[10.0], &[20.0], &[50.0], &[20.0, 2.0], &[10.0, 5.0], &[20.0, 20.0]];
+    for poles in sets {
+        print(&format!("{poles:?} Hz"), &capacitor_rows(poles, &[0.001, 0.002, 0.008, 0.033], asked("SEED", 1)));
+    }
+}
+
+/// A sound card's capacitor costs nothing, and two of them are right or refused.
+#[test]
+fn capacitors_are_fitted_or_refused() {
+    for (poles, refused) in [(&[20.0][..], 0), (&[20.0, 2.0], 3)] {
+        let rows = capacitor_rows(poles, &[0.002, 0.008], 5);
+        let count = |of: fn(&Row) -> bool| rows.iter().filter(|row| of(row)).count();
+        assert!(count(|row| row.refused) <= refused, "{poles:?}: {} refused", count(|row| row.refused));
+        assert!(count(|row| row.is_wrong()) == 0, "{poles:?}");
+        assert!(count(|row| !row.covered) <= 2, "{poles:?}: {} not covered", count(|row| !row.covered));
+        assert!(rows.iter().all(|row| row.refused || row.warnings.contains(&"ac_coupled")), "{poles:?}");
     }
 }
