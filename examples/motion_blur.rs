@@ -10,9 +10,9 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::ExitCode;
 
-use shutter_curve::{CubicBezier, ShutterCurve, expect_valid};
+use shutter_curve::{CubicBezier, ShutterCurve, expect};
 
-static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::new(
+static SHUTTER: ShutterCurve = expect!(ShutterCurve::new(
     CubicBezier::new([(0.0, 0.0), (0.2, 0.0), (0.3, 1.0), (0.5, 1.0)]),
     CubicBezier::new([(0.5, 1.0), (0.7, 1.0), (0.8, 0.0), (1.0, 0.0)]),
 ));

@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+use crate::text::Text;
+use crate::trigger::ticks::Hz;
+
 /// A part of a curve, in an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -110,6 +113,12 @@ macro_rules! of_point {
 }
 
 impl CurveError {
+    /// Panics with the error's text, in a constant at compile time. [`expect!`](crate::expect) calls it.
+    #[track_caller]
+    pub const fn panic(self) -> ! {
+        panic!("{}", self.message())
+    }
+
     /// The text that [`Display`](fmt::Display) prints.
     pub const fn message(&self) -> &'static str {
         use CurveError as E;
@@ -166,34 +175,29 @@ impl fmt::Display for CurveError {
 
 impl core::error::Error for CurveError {}
 
-/// Why a frame is refused.
+/// Why a frame is refused. The texts say what to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ScheduleError {
-    /// `timer_hz` is 0.
-    TickRateZero,
-    /// The curve has more than 2³¹ ticks at this rate.
-    TickRateTooHigh {
+    /// The timer's rate is 0.
+    RateZero,
+    /// The curve has more than 2³¹ ticks at this rate. Its times may not be in seconds.
+    RateTooHigh {
         /// The highest rate that is accepted, or 0 if there is none.
+        max: Hz,
+    },
+    /// A frame, or the `Vec` for it, cannot have so many triggers or pulses.
+    TooMany {
+        /// The maximum: 2²², or the capacity of the `Vec` if that is less.
         max: u32,
     },
-    /// A frame cannot have so many triggers or pulses.
-    TooManyTriggers {
-        /// The maximum, 2²².
-        max: u32,
-    },
-    /// The `Vec` cannot hold so many triggers.
-    CapacityExceeded {
-        /// The number that it can hold.
-        capacity: u32,
-    },
-    /// The gap between two triggers is below the minimum. [`max_triggers`](crate::ShutterCurve::max_triggers) finds how
+    /// The gap between two triggers is below the minimum. [`max_triggers`](crate::TimedCurve::max_triggers) finds how
     /// many triggers keep the minimum.
     GapTooSmall {
         /// The index of the trigger after the first such gap.
         trigger: u32,
-        /// The gap in ticks.
+        /// The gap in ticks. If it is 0, the two share a tick: the rate may be wrong.
         gap: u32,
         /// The minimum in ticks.
         min_gap: u32,
@@ -207,8 +211,6 @@ pub enum ScheduleError {
         /// The minimum in ticks.
         min_gap: u32,
     },
-    /// The duty is NaN, 0 or less, or above 1.
-    DutyOutOfRange,
     /// A pulse is shorter than the minimum.
     PulseTooShort {
         /// The index of the first such pulse.
@@ -218,54 +220,86 @@ pub enum ScheduleError {
         /// The minimum in ticks.
         min_pulse: u32,
     },
+    /// The duty is NaN, 0 or less, or above 1.
+    DutyOutOfRange,
 }
 
 impl ScheduleError {
-    /// The reason without its numbers, for a panic in a constant.
-    pub const fn message(&self) -> &'static str {
+    /// Panics with the error's text, in a constant at compile time. [`expect!`](crate::expect) calls it.
+    #[track_caller]
+    pub const fn panic(self) -> ! {
+        panic!("{}", self.text().as_str())
+    }
+
+    const fn text(self) -> Text {
         match self {
-            Self::TickRateZero => "the tick rate is 0",
-            Self::TickRateTooHigh { max: 0 } => "the interval is longer than 2^31 ticks, whatever the rate",
-            Self::TickRateTooHigh { .. } => "the interval is longer than 2^31 ticks",
-            Self::TooManyTriggers { .. } => "more triggers or pulses than a frame can have",
-            Self::CapacityExceeded { .. } => "more triggers than the `Vec` can hold",
-            Self::GapTooSmall { .. } => "a gap between triggers is below the minimum",
-            Self::PulsesTooClose { .. } => "a gap between pulses is below the minimum",
-            Self::DutyOutOfRange => "the duty must be above 0 and at most 1",
-            Self::PulseTooShort { .. } => "a pulse is shorter than the minimum",
+            Self::RateZero => Text::new("the timer's rate is 0"),
+            Self::RateTooHigh { max: Hz(0) } => {
+                Text::new("the curve has more than 2^31 ticks at any rate; its times have to be in seconds")
+            }
+            Self::RateTooHigh { max } => Text::new("the curve has more than 2^31 ticks; use a rate of at most ")
+                .number(max.0)
+                .then(" Hz, and times in seconds"),
+            Self::TooMany { max } => Text::new("more triggers or pulses than fit; use at most ").number(max),
+            Self::GapTooSmall { trigger, gap, min_gap } => {
+                let text = gap_before("trigger ", trigger, gap, min_gap);
+                let text = text.then("; use fewer triggers (max_triggers), or a faster timer");
+                if gap == 0 { text.then("; is its rate in Hz?") } else { text }
+            }
+            Self::PulsesTooClose { pulse, gap, min_gap } => gap_before("pulse ", pulse, gap, min_gap)
+                .then("; use fewer pulses, or a smaller duty; with min_gap(0) pulses may touch"),
+            Self::PulseTooShort { pulse, length, min_pulse } => Text::new("pulse ")
+                .number(pulse)
+                .then(" lasts ")
+                .ticks(length)
+                .then("; the minimum is ")
+                .number(min_pulse)
+                .then("; use fewer pulses, a larger duty, or a faster timer"),
+            Self::DutyOutOfRange => Text::new("the duty has to be above 0 and at most 1"),
         }
     }
 }
 
-const fn plural(n: u32) -> &'static str {
-    if n == 1 { "" } else { "s" }
+const fn gap_before(name: &str, i: u32, gap: u32, min_gap: u32) -> Text {
+    let text = Text::new("the gap before ").then(name).number(i).then(" is ").ticks(gap);
+    text.then("; the minimum is ").number(min_gap)
 }
 
 impl fmt::Display for ScheduleError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::TickRateTooHigh { max } if max > 0 => write!(out, "{}; up to {max} Hz it is not", self.message()),
-            Self::TooManyTriggers { max } => {
-                write!(out, "more triggers or pulses than the {max} that a frame can have")
-            }
-            Self::CapacityExceeded { capacity } => {
-                write!(out, "more triggers than the {capacity} that the `Vec` can hold")
-            }
-            Self::GapTooSmall { trigger, gap, min_gap } => {
-                let s = plural(gap);
-                write!(out, "the gap before trigger {trigger} is {gap} tick{s}; the minimum is {min_gap}")
-            }
-            Self::PulsesTooClose { pulse, gap, min_gap } => {
-                let s = plural(gap);
-                write!(out, "the gap before pulse {pulse} is {gap} tick{s}; the minimum is {min_gap}")
-            }
-            Self::PulseTooShort { pulse, length, min_pulse } => {
-                let s = plural(length);
-                write!(out, "pulse {pulse} lasts {length} tick{s}; the minimum is {min_pulse}")
-            }
-            _ => out.write_str(self.message()),
-        }
+        out.write_str(self.text().as_str())
     }
 }
 
 impl core::error::Error for ScheduleError {}
+
+/// Unwraps the result of a constructor, or of a frame's call. In a `const` or a `static`, an error is a compile error
+/// with its text.
+///
+/// ```
+/// use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
+/// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000);
+/// const TICKS: [u32; 5] = expect!(FLASH.ticks());
+/// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
+/// ```
+///
+/// ```compile_fail,E0080
+/// # use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
+/// # static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// # const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000);
+/// // error[E0080]: evaluation panicked: the gap before trigger 1 is 792 ticks; the minimum is 1000; use fewer ...
+/// const TICKS: [u32; 16] = expect!(FLASH.ticks());
+/// ```
+///
+/// # Panics
+/// If the result is an error.
+#[macro_export]
+macro_rules! expect {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(error) => error.panic(),
+        }
+    };
+}

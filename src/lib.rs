@@ -3,15 +3,17 @@
 //! shutter would.
 //!
 //! ```
-//! use shutter_curve::{ShutterCurve, expect_valid};
+//! use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
 //!
 //! // The times, in seconds, at which the shutter starts to open, is fully open, starts to close, and is closed.
-//! static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-//!
+//! static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+//! // On a 1 MHz timer, for a lamp that needs 1 ms between two flashes.
+//! const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000);
+//! // Five flashes, in the timer's ticks. Too many, or a wrong curve, would not compile.
+//! const TICKS: [u32; 5] = expect!(FLASH.ticks());
+//! assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
 //! // Half of the light is in after 5 ms.
 //! assert_eq!(SHUTTER.inverse_cdf(0.5), 0.005);
-//! // Five flashes in ticks of a 1 MHz timer, at least 1000 ticks apart.
-//! assert_eq!(SHUTTER.ticks(1_000_000, 1_000), Ok([1936, 3500, 5000, 6500, 8064]));
 //! ```
 //!
 //! # Terms
@@ -29,24 +31,25 @@
 //!
 //! # Units
 //!
-//! Times are in seconds and rates in Hz. You can use another unit of time in the constructor. All times are then in
-//! this unit, and rates are in ticks per unit.
+//! For triggers and pulses, a curve's times are in seconds. If you only ask for fractions, times and openness, any unit
+//! of time will do: all times are in the constructor's.
 //!
 //! # Which call
 //!
 //! | you want | call |
 //! |---|---|
 //! | a shutter from [`CubicBezier`]s, straight ramps, or RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
-//! | a curve in a constant | [`expect_valid`] |
+//! | a curve, ticks or pulses in a constant | [`expect!`](expect) |
 //! | a smaller curve, or fewer searches | [`with_octaves`] |
 //! | a probability density from one Bezier | [`density`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness or the probability density at a time | [`cdf`], [`openness`], [`pdf`] |
-//! | the ticks of a frame with checked gaps, as an array or in a slice | [`ticks`], [`ticks_into`] |
-//! | the ticks of a frame one by one, as in an interrupt handler | [`trigger_ticks`] |
-//! | how many triggers keep a minimum gap | [`max_triggers`] |
-//! | how many triggers need no search | [`direct_triggers`] |
-//! | pulses that send equal light through the shutter | [`pulses`], [`pulses_into`], [`pulse_ticks`] |
+//! | triggers or pulses on a timer | [`at`], which makes a [`TimedCurve`] |
+//! | - the ticks of a frame, as an array or in a slice | [`ticks`], [`ticks_into`] |
+//! | - the ticks of a frame one by one, as in an interrupt handler | [`trigger_ticks`] |
+//! | - how many triggers keep a minimum gap | [`max_triggers`] |
+//! | - pulses that send equal light through the shutter | [`pulses`], [`pulses_into`], [`pulse_ticks`] |
+//! | frames without a search | [`direct_triggers`] |
 //!
 //! # From a measured shutter
 //!
@@ -96,14 +99,15 @@
 //! [`cdf`]: ShutterCurve::cdf
 //! [`openness`]: ShutterCurve::openness
 //! [`pdf`]: ShutterCurve::pdf
-//! [`ticks`]: ShutterCurve::ticks
-//! [`ticks_into`]: ShutterCurve::ticks_into
-//! [`trigger_ticks`]: ShutterCurve::trigger_ticks
-//! [`max_triggers`]: ShutterCurve::max_triggers
+//! [`ticks`]: TimedCurve::ticks
+//! [`ticks_into`]: TimedCurve::ticks_into
+//! [`trigger_ticks`]: TimedCurve::trigger_ticks
+//! [`max_triggers`]: TimedCurve::max_triggers
+//! [`at`]: ShutterCurve::at
 //! [`direct_triggers`]: ShutterCurve::direct_triggers
-//! [`pulse_ticks`]: ShutterCurve::pulse_ticks
-//! [`pulses`]: ShutterCurve::pulses
-//! [`pulses_into`]: ShutterCurve::pulses_into
+//! [`pulse_ticks`]: TimedCurve::pulse_ticks
+//! [`pulses`]: TimedCurve::pulses
+//! [`pulses_into`]: TimedCurve::pulses_into
 
 #![no_std]
 // docs.rs says of each item which feature it needs.
@@ -141,15 +145,18 @@ mod octave;
 mod ramp;
 mod search;
 mod shutter;
+mod text;
 mod trigger;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
 #[cfg(feature = "_measure")]
 pub use search::MAX_EVALUATIONS;
-pub use shutter::{ShutterCurve, expect_valid};
+pub use shutter::ShutterCurve;
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
-pub use trigger::pulse::{Pulse, PulseLimits};
+pub use trigger::pulse::Pulse;
+pub use trigger::ticks::Hz;
+pub use trigger::timed::TimedCurve;
 
 #[doc = include_str!("../docs/accuracy.md")]
 #[cfg(doc)]

@@ -7,9 +7,8 @@ use crate::error::{CurveError, Part, ScheduleError, tried};
 use crate::fraction::Side;
 use crate::inverse::Inverse;
 use crate::ramp::bezier::CubicBezier;
-use crate::trigger::iterator::{PulseTicks, TriggerTicks};
-use crate::trigger::pulse::{Pulse, PulseLimits, Pulses};
-use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
+use crate::trigger::ticks::{Hz, direct_triggers};
+use crate::trigger::timed::TimedCurve;
 
 /// A shutter's openness over time: an opening cubic Bezier, a fully open plateau and a closing cubic Bezier.
 ///
@@ -154,8 +153,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// [octaves](Self#octaves). More octaves take more memory and leave fewer fractions to a search.
     ///
     /// ```
-    /// use shutter_curve::{CubicBezier, ShutterCurve, expect_valid};
-    /// static SMALL: ShutterCurve<4> = expect_valid(ShutterCurve::with_octaves(
+    /// use shutter_curve::{CubicBezier, ShutterCurve, expect};
+    /// static SMALL: ShutterCurve<4> = expect!(ShutterCurve::with_octaves(
     ///     CubicBezier::line((0.0, 0.0), (1.0, 1.0)),
     ///     CubicBezier::line((1.0, 1.0), (2.0, 0.0)),
     /// ));
@@ -298,16 +297,16 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// A constant can check the number at compile time:
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, expect_valid};
-    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// use shutter_curve::{ShutterCurve, expect};
+    /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
     ///
     /// On the same curve, 4096 triggers would need searches. This does not compile:
     ///
     /// ```compile_fail,E0080
-    /// # use shutter_curve::{ShutterCurve, expect_valid};
-    /// # static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// # use shutter_curve::{ShutterCurve, expect};
+    /// # static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 4096);
     /// ```
     #[must_use]
@@ -315,222 +314,20 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         direct_triggers(&self.inverse)
     }
 
-    /// The ticks of a frame of `n` triggers, as an iterator. It does not check gaps; [`ticks_into`](Self::ticks_into)
-    /// does.
-    ///
-    /// The triggers divide the exposure into equal shares, and each is in the middle of its share: trigger `i` is at
-    /// the fraction `u = (2i + 1) / 2n`. Ticks count from [`open_start`](Self::open_start) and never decrease. Add your
-    /// timer's count at that moment, with `wrapping_add`.
-    ///
-    /// `timer_hz` is your timer's rate, in Hz for a curve in seconds. The crate cannot detect a wrong rate.
+    /// Puts the curve on a timer. The curve's times have to be in seconds.
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, expect_valid};
-    /// // A shutter that opens in no time, closes 8 ms later in no time, and a 1 MHz timer.
-    /// let curve: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
-    /// assert!(curve.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
-    /// # Ok::<(), shutter_curve::ScheduleError>(())
-    /// ```
-    ///
-    /// If a typical curve has at most 2²⁴ ticks, each tick is within 0.85 tick of the exact time. On longer curves the
-    /// error can be many ticks: 8 were seen at 2²⁹ ticks, and 32 at 2³¹. [`accuracy`](crate::accuracy) has a promise
-    /// for every curve.
-    ///
-    /// # Errors
-    /// Returns a [`ScheduleError`] if the rate is 0, if the curve has more than 2³¹ ticks at this rate, or if `n` is
-    /// above 2²².
-    pub const fn trigger_ticks(&self, n: u32, timer_hz: u32) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
-        let frame = tried!(Ticks::new(&self.inverse, n, timer_hz));
-        Ok(TriggerTicks { frame, left: 0..n })
-    }
-
-    /// Fills `ticks` with the ticks of a frame, as [`trigger_ticks`](Self::trigger_ticks) returns them. Checks that the
-    /// triggers are at least `min_gap` ticks apart. If `min_gap` is 0, triggers may share a tick.
-    ///
-    /// ```
-    /// use shutter_curve::{ScheduleError, ShutterCurve, expect_valid};
-    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// let mut ticks = [0; 5];
-    /// SHUTTER.ticks_into(&mut ticks, 1_000_000, 1_000)?;
-    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
-    /// // Sixteen triggers are too close for a gap of 1 ms.
-    /// let error = SHUTTER.ticks_into(&mut [0; 16], 1_000_000, 1_000).unwrap_err();
-    /// assert_eq!(error, ScheduleError::GapTooSmall { trigger: 1, gap: 792, min_gap: 1_000 });
-    /// # Ok::<(), ScheduleError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Returns a [`ScheduleError`] if a gap is too small. The slice then holds part of the frame. Also returns the
-    /// errors of [`trigger_ticks`](Self::trigger_ticks), and then leaves the slice unchanged.
-    pub const fn ticks_into(&self, ticks: &mut [u32], timer_hz: u32, min_gap: u32) -> Result<(), ScheduleError> {
-        if ticks.len() > MOST_TRIGGERS as usize {
-            return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
-        }
-        let frame = tried!(Ticks::new(&self.inverse, ticks.len() as u32, timer_hz));
-        frame.ticks_into(ticks, min_gap)
-    }
-
-    /// The ticks of a frame of `N` triggers as an array, checked like [`ticks_into`](Self::ticks_into). In a constant,
-    /// the check happens at compile time.
-    ///
-    /// ```
-    /// use shutter_curve::{ShutterCurve, expect_valid};
-    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// const TICKS: [u32; 5] = match SHUTTER.ticks(1_000_000, 1_000) {
-    ///     Ok(ticks) => ticks,
-    ///     Err(error) => panic!("{}", error.message()),
-    /// };
+    /// use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
+    /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000)));
+    /// const TICKS: [u32; 5] = expect!(FLASH.ticks());
     /// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
     /// ```
     ///
     /// # Errors
-    /// Returns the errors of [`ticks_into`](Self::ticks_into).
-    pub const fn ticks<const N: usize>(&self, timer_hz: u32, min_gap: u32) -> Result<[u32; N], ScheduleError> {
-        let mut ticks = [0; N];
-        tried!(self.ticks_into(&mut ticks, timer_hz, min_gap));
-        Ok(ticks)
-    }
-
-    /// The ticks of a frame of `n` triggers in a `heapless::Vec`, checked like [`ticks_into`](Self::ticks_into). This
-    /// needs the feature `heapless-v0_9`.
-    ///
-    /// ```
-    /// use shutter_curve::{ShutterCurve, expect_valid};
-    /// let curve: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// let ticks: heapless::Vec<u32, 16> = curve.ticks_vec(5, 1_000_000, 1_000)?;
-    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
-    /// # Ok::<(), shutter_curve::ScheduleError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Returns a [`ScheduleError`] if `n` is above `N`, and the errors of [`ticks_into`](Self::ticks_into).
-    #[cfg(feature = "heapless-v0_9")]
-    pub fn ticks_vec<const N: usize>(
-        &self,
-        n: u32,
-        timer_hz: u32,
-        min_gap: u32,
-    ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
-        let mut ticks = heapless::Vec::new();
-        let fits = usize::try_from(n).is_ok_and(|n| ticks.resize(n, 0).is_ok());
-        if !fits {
-            return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
-        }
-        self.ticks_into(&mut ticks, timer_hz, min_gap)?;
-        Ok(ticks)
-    }
-
-    /// The number of triggers, up to `wanted`, that keep a gap of `min_gap` ticks. If it is below `wanted`, one more
-    /// trigger would not keep the gap.
-    ///
-    /// The result is 0 only if `wanted` is 0. The call takes as long as planning a few frames.
-    ///
-    /// ```
-    /// use shutter_curve::{ShutterCurve, expect_valid};
-    /// let curve: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// // A lamp that needs 1 ms between two flashes, on a 1 MHz timer.
-    /// assert_eq!(curve.max_triggers(16, 1_000_000, 1_000), Ok(7));
-    /// ```
-    ///
-    /// # Errors
-    /// Returns the errors of [`trigger_ticks`](Self::trigger_ticks).
-    pub const fn max_triggers(&self, wanted: u32, timer_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
-        let frame = tried!(Ticks::new(&self.inverse, wanted, timer_hz));
-        // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
-        let guess = timer_hz as f32 / (self.normalization() * min_gap as f32);
-        Ok(frame.max_triggers(min_gap, guess as u32))
-    }
-
-    /// A frame of `n` pulses of a steady lamp, as an iterator. Use it if the lamp shines through this shutter. It does
-    /// not check lengths and gaps; [`pulses_into`](Self::pulses_into) does.
-    ///
-    /// Every pulse sends the same amount of light through the shutter. It covers the fraction `duty` of its share of
-    /// the exposure, in the middle of the share. `duty` is above 0 and at most 1. The pulse starts at the time of the
-    /// fraction `(i + 1/2 - duty/2) / n` and ends at the time of `(i + 1/2 + duty/2) / n`.
-    ///
-    /// Pulses never overlap; with a duty of 1 they touch. A pulse that is shorter than a tick may start and end at the
-    /// same tick. Ticks count from [`open_start`](Self::open_start).
-    ///
-    /// ```
-    /// use shutter_curve::{Pulse, ShutterCurve, expect_valid};
-    /// // In seconds. Where the shutter is half closed, a pulse lasts longer.
-    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
-    /// let pulses: Vec<Pulse> = SHUTTER.pulse_ticks(3, 0.5, 1_000_000)?.collect();
-    /// assert_eq!(pulses[0], Pulse { on: 1414, off: 2500 });
-    /// assert_eq!(pulses[1], Pulse { on: 3500, off: 4500 });
-    /// # Ok::<(), shutter_curve::ScheduleError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Returns a [`ScheduleError`] if the duty is out of range or NaN, and the errors of
-    /// [`trigger_ticks`](Self::trigger_ticks).
-    pub const fn pulse_ticks(
-        &self,
-        n: u32,
-        duty: f32,
-        timer_hz: u32,
-    ) -> Result<PulseTicks<'_, OCTAVES>, ScheduleError> {
-        let pulses = tried!(Pulses::new(&self.inverse, n, duty, timer_hz));
-        Ok(PulseTicks { frame: pulses, left: 0..n })
-    }
-
-    /// Fills `pulses` with the pulses of a frame, as [`pulse_ticks`](Self::pulse_ticks) returns them. Checks every
-    /// pulse and gap against the `limits`.
-    ///
-    /// ```
-    /// use shutter_curve::{Pulse, PulseLimits, ScheduleError, ShutterCurve, expect_valid};
-    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
-    /// let mut pulses = [Pulse::default(); 3];
-    /// let limits = PulseLimits { min_pulse: 1_000, min_gap: 1_000 };
-    /// SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, limits)?;
-    /// let limits = PulseLimits { min_pulse: 1_001, min_gap: 1_000 };
-    /// let error = SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, limits).unwrap_err();
-    /// assert_eq!(error, ScheduleError::PulseTooShort { pulse: 1, length: 1_000, min_pulse: 1_001 });
-    /// # Ok::<(), ScheduleError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Returns a [`ScheduleError`] if a pulse or a gap is too short. The slice then holds part of the frame. After an
-    /// error of [`pulse_ticks`](Self::pulse_ticks), the slice is unchanged.
-    pub const fn pulses_into(
-        &self,
-        pulses: &mut [Pulse],
-        duty: f32,
-        timer_hz: u32,
-        limits: PulseLimits,
-    ) -> Result<(), ScheduleError> {
-        if pulses.len() > MOST_TRIGGERS as usize {
-            return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
-        }
-        let frame = tried!(Pulses::new(&self.inverse, pulses.len() as u32, duty, timer_hz));
-        frame.pulses_into(pulses, limits)
-    }
-
-    /// A frame of `N` pulses as an array, checked like [`pulses_into`](Self::pulses_into). In a constant, the check
-    /// happens at compile time.
-    ///
-    /// ```
-    /// use shutter_curve::{Pulse, PulseLimits, ShutterCurve, expect_valid};
-    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
-    /// const LIMITS: PulseLimits = PulseLimits { min_pulse: 1_000, min_gap: 1_000 };
-    /// const PULSES: [Pulse; 3] = match SHUTTER.pulses(0.5, 1_000_000, LIMITS) {
-    ///     Ok(pulses) => pulses,
-    ///     Err(error) => panic!("{}", error.message()),
-    /// };
-    /// assert_eq!(PULSES[1], Pulse { on: 3500, off: 4500 });
-    /// ```
-    ///
-    /// # Errors
-    /// Returns the errors of [`pulses_into`](Self::pulses_into).
-    pub const fn pulses<const N: usize>(
-        &self,
-        duty: f32,
-        timer_hz: u32,
-        limits: PulseLimits,
-    ) -> Result<[Pulse; N], ScheduleError> {
-        let mut pulses = [Pulse { on: 0, off: 0 }; N];
-        tried!(self.pulses_into(&mut pulses, duty, timer_hz, limits));
-        Ok(pulses)
+    /// Returns a [`ScheduleError`] if the rate is 0, or if the curve has more than 2³¹ ticks at this rate.
+    pub const fn at(&self, rate: Hz) -> Result<TimedCurve<'_, OCTAVES>, ScheduleError> {
+        TimedCurve::new(&self.inverse, rate, self.exposure())
     }
 
     /// Whether [`inverse_cdf`](Self::inverse_cdf) answers `u` without a search.
@@ -545,33 +342,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     #[must_use]
     pub fn evaluations(&self, u: f32) -> u32 {
         self.inverse.evaluations(u).unwrap_or(0)
-    }
-}
-
-/// Unwraps a constructor's result. In a `const` or `static`, an invalid curve is then a compile error.
-///
-/// ```
-/// use shutter_curve::{ShutterCurve, expect_valid};
-/// static CURVE: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.25, 0.75, 1.0));
-/// assert_eq!(CURVE.exposure(), 0.75);
-/// ```
-///
-/// ```compile_fail,E0080
-/// use shutter_curve::{ShutterCurve, expect_valid};
-/// // error[E0080]: evaluation panicked: times out of order: ...
-/// static CURVE: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.75, 0.25, 1.0));
-/// ```
-///
-/// # Panics
-/// If the result is an error.
-#[must_use]
-#[track_caller]
-pub const fn expect_valid<const OCTAVES: usize>(
-    curve: Result<ShutterCurve<OCTAVES>, CurveError>,
-) -> ShutterCurve<OCTAVES> {
-    match curve {
-        Ok(curve) => curve,
-        Err(error) => panic!("{}", error.message()),
     }
 }
 

@@ -2,7 +2,7 @@
 //! while the shutter is fully open.
 
 use serde::{Deserialize, Serialize};
-use shutter_curve::{ScheduleError, ShutterCurve};
+use shutter_curve::{Hz, ScheduleError, ShutterCurve};
 
 /// How the flashes meet the shutter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
@@ -99,7 +99,8 @@ impl Lamp {
 
     /// A frame of `n` flashes.
     pub(crate) fn frame(self, curve: &ShutterCurve, n: u32, timer_hz: u32) -> Result<Vec<Flash>, ScheduleError> {
-        let ticks = curve.trigger_ticks(n, timer_hz)?;
+        let timed = curve.at(Hz(timer_hz))?.min_gap(0).min_pulse(0);
+        let ticks = timed.trigger_ticks(n)?;
         let flash = |tick: u32, on: i64, off: i64| Flash { tick, on, off };
         let at = |tick: u32| flash(tick, tick.into(), tick.into());
         Ok(match self {
@@ -117,7 +118,7 @@ impl Lamp {
                 })
                 .collect(),
             Self::Doses { duty } => ticks
-                .zip(curve.pulse_ticks(n, duty, timer_hz)?)
+                .zip(timed.pulse_ticks(n, duty)?)
                 .map(|(tick, pulse)| flash(tick, pulse.on.into(), pulse.off.into()))
                 .collect(),
         })

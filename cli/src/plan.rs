@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use shutter_curve::{ScheduleError, ShutterCurve};
+use shutter_curve::{Hz, ScheduleError, ShutterCurve};
 pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count};
 
@@ -291,7 +291,7 @@ impl Problem {
 /// What is wrong with a timer's rate, in Hz, as all curves are in seconds here.
 fn rate(error: ScheduleError) -> What {
     match error {
-        ScheduleError::TickRateTooHigh { max } if max > 0 => What::RateTooHigh { most: max },
+        ScheduleError::RateTooHigh { max: Hz(most @ 1..) } => What::RateTooHigh { most },
         _ => What::Schedule(error),
     }
 }

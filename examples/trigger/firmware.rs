@@ -11,7 +11,7 @@ use defmt_semihosting as _;
 use heapless::Vec;
 use semihosting::process::ExitCode;
 use semihosting::sys::arm_compat::sys_get_cmdline_uninit;
-use shutter_curve::{ScheduleError, TriggerTicks};
+use shutter_curve::{Hz, ScheduleError, TimedCurve, TriggerTicks, expect};
 
 use crate::board::{TICK_HZ, TIMER_IRQ, acknowledge, interrupt_in, now, start, trigger_line};
 use crate::measured::{self, SHUTTER};
@@ -19,6 +19,7 @@ use crate::measured::{self, SHUTTER};
 // The program that planned knew this timer.
 const _: () = assert!(measured::TIMER_HZ == TICK_HZ);
 
+const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(TICK_HZ)));
 /// The most triggers in a frame.
 const CAPACITY: usize = 96;
 /// The triggers that each frame asks for; the last asks for more than its lamp can follow.
@@ -122,8 +123,8 @@ enum Wrong {
 fn plan(wanted: u32, fault: Fault) -> Result<TriggerTicks<'static>, ScheduleError> {
     // A pulse may be late and the next on time.
     let gap = if fault == Fault::Close { 1 } else { MIN_GAP + LATEST };
-    let n = SHUTTER.max_triggers(wanted.min(CAPACITY as u32), TICK_HZ, gap)?;
-    SHUTTER.trigger_ticks(n, TICK_HZ)
+    let flash = FLASH.min_gap(gap);
+    flash.trigger_ticks(flash.max_triggers(wanted.min(CAPACITY as u32)))
 }
 
 /// Fires the pulse that is due, and has the next one come.
@@ -211,7 +212,7 @@ fn check(edge: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong>
 
 /// Sleeps until the frame that starts at `base` is over: until a gap has passed after its end.
 fn wait_for_end(base: u32) {
-    let length = ((SHUTTER.close_end() - SHUTTER.open_start()) * TICK_HZ as f32) as u32 + MIN_GAP;
+    let length = FLASH.length() + MIN_GAP;
     while (now().wrapping_sub(base.wrapping_add(length)) as i32) < 0 {
         // An interrupt that comes in here wakes the processor, and is served at the end: none is missed.
         critical_section::with(|cs| {

@@ -54,12 +54,12 @@ pub fn due(edge: u32) -> impl ExactSizeIterator<Item = u32> {
     TICKS.iter().map(move |&ticks| at(ticks))
 }
 
-use shutter_curve::{ShutterCurve, expect_valid};
+use shutter_curve::{ShutterCurve, expect};
 
 /// The shutter, its times in seconds.
 #[allow(dead_code, clippy::unreadable_literal)]
 #[rustfmt::skip]
-pub static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::shutteropening(
+pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::shutteropening(
     [0.004247017, 0.0068739066, 0.010958795, 0.0129576195],
     [0.1227013, 0.0005207, 0.1941086, 0.9329665, 0.852301, 0.9329665, 0.9066355, 0.0005207],
 ));

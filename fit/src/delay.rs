@@ -3,14 +3,12 @@
 use crate::bins;
 use crate::curve::Exposure;
 use crate::errors::Measured;
+use crate::shots::ALIKE;
 use crate::signal::Signal;
 use crate::solve::Cholesky;
 use crate::trace::{Edge, Edges, Frame, Refusal, Starts, Switch, Trace, Warning, edges, sampling_interval};
 use crate::unit::{Unit, decimals, short, trimmed};
 use crate::{Record, Shot};
-
-/// Shots whose exposures differ by no more than this share are of one speed.
-pub(crate) const ALIKE: f64 = 0.1;
 
 /// From where the edge is known.
 #[derive(Clone, Debug)]

@@ -98,8 +98,9 @@ impl Results {
     pub fn timed(mut self, timing: &Timing) -> Self {
         for span in self.parts.iter_mut().chain([&mut self.exposure]) {
             span.widen(timing.pace * span.value);
+            span.widen(2f64.sqrt() * timing.each);
         }
-        self.times().for_each(|time| time.widen(timing.error));
+        self.times().for_each(|time| time.widen(timing.error.hypot(timing.each)));
         self
     }
 

@@ -92,10 +92,8 @@ impl Record {
 /// By how much the exposures of records differ, as a share of the shortest, and is that so little that they are of one
 /// setting?
 pub fn setting(records: &[Record]) -> (f64, bool) {
-    let exposures = records.iter().map(Record::exposure);
-    let (low, high) = exposures.fold((f64::INFINITY, 0.0), |(low, high), x| (x.min(low), x.max(high)));
-    let differ = high / low - 1.0;
-    (differ, differ <= delay::ALIKE)
+    let differ = shots::apart(records.iter().map(Record::exposure));
+    (differ, differ <= shots::ALIKE)
 }
 
 /// Fits a trace. `progress` is told the share that is done.
@@ -130,7 +128,7 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
     let Shot { record, pulses, frame } = shots[asked];
     let gap = shots::gaps(pulses, frame)?;
     let counted = Frames::new(&frames, asked);
-    let differ = shots::differ(&frames, counted.scatter, pulses.relative_noise());
+    let differ = shots::differ(&frames, pulses.relative_noise());
     let fits = &choice::fits(pulses, frame, options.mains, progress);
     progress(1.0);
 

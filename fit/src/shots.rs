@@ -3,8 +3,8 @@
 
 use crate::trace::{Frame, Pulses, Refusal, Warning, median, sampling_interval};
 
-/// Shots whose exposures scatter by more than this are not of one shutter speed.
-const ALIKE: f64 = 0.01;
+/// Shots whose exposures differ by more than this share of the shortest are not of one setting.
+pub const ALIKE: f64 = 0.1;
 /// Nor is that the noise, where it is so many times what the noise makes of them.
 const BEYOND_NOISE: f64 = 4.0;
 /// A step between two samples that is so many times as long as the usual one and those beside it is a gap.
@@ -14,13 +14,18 @@ const RAMP: f64 = 0.2;
 /// What is so many pulses away does not matter.
 const AROUND: f64 = 0.5;
 
-/// By how much the exposures scatter, as a share of their mean, where that is more than one shutter speed and the noise
-/// explain.
-pub fn differ(frames: &[Frame], scatter: f64, noise: f64) -> bool {
+/// By how much exposures differ, as a share of the shortest.
+pub fn apart(exposures: impl Iterator<Item = f64>) -> f64 {
+    let (low, high) = exposures.fold((f64::INFINITY, 0.0), |(low, high), x| (x.min(low), x.max(high)));
+    high / low - 1.0
+}
+
+/// Do the exposures differ by more than those of one setting do, and more than the noise makes of them?
+pub fn differ(frames: &[Frame], noise: f64) -> bool {
     let samples = frames.iter().map(|frame| frame.samples.len()).min().unwrap_or(1) as f64;
     // A fifth of the samples at least are the pulse's; each adds its noise.
     let usual = noise * 2.0 * (5.0 / samples).sqrt();
-    frames.len() > 1 && scatter > ALIKE.max(BEYOND_NOISE * usual)
+    apart(frames.iter().map(|frame| frame.exposure)) > ALIKE.max(BEYOND_NOISE * usual)
 }
 
 /// The place of the frame that is asked for by its number, from 1; without one, of the frame of median exposure.

@@ -6,19 +6,20 @@ use core::ops::Range;
 use crate::trigger::pulse::{Pulse, Pulses};
 use crate::trigger::ticks::Ticks;
 
-/// The ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). The
+/// The ticks of a frame's triggers, from [`TimedCurve::trigger_ticks`](crate::TimedCurve::trigger_ticks). The
 /// iterator runs from either end, and computes only the ticks that it returns.
 ///
 /// A `static` curve has a `'static` iterator, which an interrupt handler can keep:
 ///
 /// ```
-/// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, expect_valid};
+/// use shutter_curve::{Hz, ScheduleError, ShutterCurve, TimedCurve, TriggerTicks, expect};
 ///
-/// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000)));
 /// const _: () = assert!(SHUTTER.direct_triggers() >= 16);
 ///
 /// fn begin() -> Result<TriggerTicks<'static>, ScheduleError> {
-///     SHUTTER.trigger_ticks(16, 1_000_000)
+///     FLASH.trigger_ticks(16)
 /// }
 ///
 /// /// `base` is the timer's count at which the shutter starts to open.
@@ -36,7 +37,7 @@ pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) left: Range<u32>,
 }
 
-/// A frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). The iterator runs from
+/// A frame's pulses, from [`TimedCurve::pulse_ticks`](crate::TimedCurve::pulse_ticks). The iterator runs from
 /// either end, and computes only the pulses that it returns.
 #[derive(Clone)]
 pub struct PulseTicks<'a, const OCTAVES: usize = 8> {

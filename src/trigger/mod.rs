@@ -3,3 +3,4 @@
 pub(crate) mod iterator;
 pub(crate) mod pulse;
 pub(crate) mod ticks;
+pub(crate) mod timed;

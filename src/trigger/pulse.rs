@@ -1,7 +1,6 @@
 //! Pulses that get equal doses of a steady lamp through the shutter: on and off, as timer ticks.
 
-use crate::error::{ScheduleError, tried};
-use crate::inverse::Inverse;
+use crate::error::ScheduleError;
 use crate::trigger::ticks::Ticks;
 
 /// The ticks at which a pulse starts and ends. They count from [`open_start`](crate::ShutterCurve::open_start).
@@ -14,16 +13,6 @@ pub struct Pulse {
     pub off: u32,
 }
 
-/// The shortest pulse and gap that a lamp allows, in ticks. 0 allows any.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PulseLimits {
-    /// The minimum length of a pulse.
-    pub min_pulse: u32,
-    /// The minimum time from the end of a pulse to the start of the next.
-    pub min_gap: u32,
-}
-
 /// What places the pulses of one frame.
 #[derive(Clone)]
 pub(crate) struct Pulses<'a, const OCTAVES: usize> {
@@ -32,16 +21,8 @@ pub(crate) struct Pulses<'a, const OCTAVES: usize> {
 }
 
 impl<'a, const OCTAVES: usize> Pulses<'a, OCTAVES> {
-    pub(crate) const fn new(
-        inverse: &'a Inverse<OCTAVES>,
-        n: u32,
-        duty: f32,
-        timer_hz: u32,
-    ) -> Result<Self, ScheduleError> {
-        if !(duty > 0.0 && duty <= 1.0) {
-            return Err(ScheduleError::DutyOutOfRange);
-        }
-        Ok(Self { ticks: tried!(Ticks::new(inverse, n, timer_hz)), duty })
+    pub(crate) const fn new(ticks: Ticks<'a, OCTAVES>, duty: f32) -> Result<Self, ScheduleError> {
+        if duty > 0.0 && duty <= 1.0 { Ok(Self { ticks, duty }) } else { Err(ScheduleError::DutyOutOfRange) }
     }
 
     /// Pulse `i`. Its ends are in order, and so are neighbouring pulses, since rounding keeps the order of
@@ -50,24 +31,29 @@ impl<'a, const OCTAVES: usize> Pulses<'a, OCTAVES> {
         Pulse { on: self.ticks.around(i, -self.duty), off: self.ticks.around(i, self.duty) }
     }
 
-    /// All pulses, as many as the slice has places; an error at the first pulse or gap that is too short.
-    pub(crate) const fn pulses_into(
-        &self,
-        pulses: &mut [Pulse],
-        PulseLimits { min_pulse, min_gap }: PulseLimits,
-    ) -> Result<(), ScheduleError> {
+    /// Are all pulses and gaps long enough?
+    #[inline(never)]
+    pub(crate) const fn check(&self, min_gap: u32, min_pulse: u32) -> Result<(), ScheduleError> {
+        self.fill(&mut [], min_gap, min_pulse)
+    }
+
+    /// Checks that all pulses and gaps are long enough, and stores the pulses where the slice has places for them.
+    #[inline(always)]
+    pub(crate) const fn fill(&self, pulses: &mut [Pulse], min_gap: u32, min_pulse: u32) -> Result<(), ScheduleError> {
         let (mut i, mut last) = (0, 0);
-        while i < pulses.len() {
-            let pulse = self.at(i as u32);
+        while i < self.ticks.n() {
+            let pulse = self.at(i);
             let length = pulse.off.saturating_sub(pulse.on);
             if length < min_pulse {
-                return Err(ScheduleError::PulseTooShort { pulse: i as u32, length, min_pulse });
+                return Err(ScheduleError::PulseTooShort { pulse: i, length, min_pulse });
             }
             let gap = pulse.on.saturating_sub(last);
             if i > 0 && gap < min_gap {
-                return Err(ScheduleError::PulsesTooClose { pulse: i as u32, gap, min_gap });
+                return Err(ScheduleError::PulsesTooClose { pulse: i, gap, min_gap });
             }
-            pulses[i] = pulse;
+            if (i as usize) < pulses.len() {
+                pulses[i as usize] = pulse;
+            }
             (i, last) = (i + 1, pulse.off);
         }
         Ok(())

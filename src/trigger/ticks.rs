@@ -11,29 +11,40 @@ const TICK_BITS: i32 = 31;
 /// The most triggers in a frame: so `2i + 1` and `2n` are whole numbers of 24 bits, exact as `f32`.
 pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 
+/// The rate of a timer, in ticks per second.
+///
+/// ```
+/// use shutter_curve::{Hz, ShutterCurve, expect};
+/// let curve: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// // A rate of `fugit`, as a HAL returns it.
+/// let rate = fugit::MegahertzU32::MHz(1);
+/// assert_eq!(curve.at(Hz(rate.to_Hz()))?.length(), 10_000);
+/// # Ok::<(), shutter_curve::ScheduleError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Hz(pub u32);
+
 /// The ticks of one frame: of the triggers, or the pulses, of one exposure.
 #[derive(Clone)]
 pub(crate) struct Ticks<'a, const OCTAVES: usize> {
     inverse: &'a Inverse<OCTAVES>,
     n: u32,
-    to_ticks: TickScale,
+    scale: TickScale,
 }
 
 impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
-    pub(crate) const fn new(inverse: &'a Inverse<OCTAVES>, n: u32, timer_hz: u32) -> Result<Self, ScheduleError> {
-        if timer_hz == 0 {
-            return Err(ScheduleError::TickRateZero);
-        }
+    pub(crate) const fn new(inverse: &'a Inverse<OCTAVES>, scale: TickScale, n: u32) -> Result<Self, ScheduleError> {
         if n > MOST_TRIGGERS {
-            return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
+            return Err(ScheduleError::TooMany { max: MOST_TRIGGERS });
         }
-        let curve = &inverse.exposure;
-        let [start, end] = [curve.in_units(curve.end_time(Side::Start)), curve.in_units(curve.end_time(Side::End))];
-        let (length, exponent) = ((end - start) as u64, curve.units().exponent);
-        if exponent_of_ticks(length, timer_hz, exponent) > TICK_BITS {
-            return Err(too_high(length, timer_hz, exponent));
-        }
-        Ok(Self { inverse, n, to_ticks: TickScale::new(start, length, timer_hz, exponent) })
+        Ok(Self { inverse, n, scale })
+    }
+
+    /// The number of triggers or pulses.
+    #[inline(always)]
+    pub(crate) const fn n(&self) -> u32 {
+        self.n
     }
 
     /// The tick of trigger `i`.
@@ -45,20 +56,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     /// The tick of the fraction `(2i + 1 + more) / 2n`, where `more` is ±duty for the ends of a pulse.
     #[inline(always)]
     pub(crate) const fn around(&self, i: u32, more: f32) -> u32 {
-        self.to_ticks.tick(self.inverse.time_units(self.fraction(i, more)))
-    }
-
-    /// Do all triggers keep a gap?
-    pub(crate) const fn keeps(&self, min_gap: u32) -> bool {
-        let (mut i, mut last) = (1, self.at(0));
-        while i < self.n {
-            let tick = self.at(i);
-            if tick.saturating_sub(last) < min_gap {
-                return false;
-            }
-            (i, last) = (i + 1, tick);
-        }
-        true
+        self.scale.tick(self.inverse.time_units(self.fraction(i, more)))
     }
 
     /// Does trigger `i` need no search?
@@ -75,43 +73,28 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         Fraction::of_parts(odd as f32 + more, (whole - odd) as f32 - more, whole as f32)
     }
 
-    /// The ticks of all triggers, as many as the slice has places; an error at the first gap that is too small.
-    pub(crate) const fn ticks_into(&self, ticks: &mut [u32], min_gap: u32) -> Result<(), ScheduleError> {
+    /// Do all triggers keep a gap?
+    #[inline(never)]
+    pub(crate) const fn check(&self, min_gap: u32) -> Result<(), ScheduleError> {
+        self.fill(&mut [], min_gap)
+    }
+
+    /// Checks that all triggers keep a gap, and stores their ticks where `ticks` has places for them.
+    #[inline(always)]
+    pub(crate) const fn fill(&self, ticks: &mut [u32], min_gap: u32) -> Result<(), ScheduleError> {
         let (mut i, mut last) = (0, 0);
-        while i < ticks.len() {
-            let tick = self.at(i as u32);
+        while i < self.n {
+            let tick = self.at(i);
             let gap = tick.saturating_sub(last);
             if i > 0 && gap < min_gap {
-                return Err(ScheduleError::GapTooSmall { trigger: i as u32, gap, min_gap });
+                return Err(ScheduleError::GapTooSmall { trigger: i, gap, min_gap });
             }
-            ticks[i] = tick;
+            if (i as usize) < ticks.len() {
+                ticks[i as usize] = tick;
+            }
             (i, last) = (i + 1, tick);
         }
         Ok(())
-    }
-
-    /// How many triggers, up to `n`, keep a gap.
-    pub(crate) const fn max_triggers(mut self, min_gap: u32, guess: u32) -> u32 {
-        let wanted = self.n;
-        if wanted <= 1 || min_gap == 0 {
-            return wanted;
-        }
-        // First the whole frame, then the guess, then doubled steps and bisection. One trigger keeps any gap.
-        let (mut keep, mut fail, mut step) = (1, wanted + 1, 0u32);
-        while fail - keep > 1 {
-            let keeps = self.keeps(min_gap);
-            *(if keeps { &mut keep } else { &mut fail }) = self.n;
-            let next = if step == 0 {
-                guess
-            } else if keeps {
-                keep.saturating_add(step)
-            } else {
-                fail.saturating_sub(step)
-            };
-            self.n = if next <= keep || next >= fail { keep + (fail - keep) / 2 } else { next };
-            step = step.saturating_mul(2) | 1;
-        }
-        keep
     }
 }
 
@@ -126,9 +109,9 @@ pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTA
 }
 
 /// The least `e` for which the time `length · 2^exponent` is at most 2^e ticks.
-const fn exponent_of_ticks(length: u64, timer_hz: u32, exponent: i32) -> i32 {
+const fn exponent_of_ticks(length: u64, rate: u32, exponent: i32) -> i32 {
     // Of the 96 bits of length · rate the upper 64, rounded up.
-    let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, timer_hz as u64);
+    let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, rate as u64);
     let ticks = high * rate + (low * rate).div_ceil(1 << 32);
     96 - ticks.wrapping_sub(1).leading_zeros() as i32 + exponent
 }
@@ -136,18 +119,23 @@ const fn exponent_of_ticks(length: u64, timer_hz: u32, exponent: i32) -> i32 {
 /// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
 #[cold]
 #[inline(never)]
-const fn too_high(length: u64, timer_hz: u32, exponent: i32) -> ScheduleError {
-    let (mut max, mut fail) = (0, timer_hz);
+const fn too_high(length: u64, rate: u32, exponent: i32) -> ScheduleError {
+    let (mut max, mut fail) = (0, rate);
     while fail - max > 1 {
         let middle = max + (fail - max) / 2;
         let fits = exponent_of_ticks(length, middle, exponent) <= TICK_BITS;
         *(if fits { &mut max } else { &mut fail }) = middle;
     }
-    ScheduleError::TickRateTooHigh { max }
+    ScheduleError::RateTooHigh { max: Hz(max) }
+}
+
+/// The time of an end of the curve.
+const fn end_units<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>, side: Side) -> i64 {
+    inverse.exposure.in_units(inverse.exposure.end_time(side))
 }
 
 /// From times in units to ticks, in fixed point.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub(crate) struct TickScale {
     start_units: i64,
     /// The bits by which a delay, the time since the start, moves up, so that the interval has 62 or 63 bits.
@@ -159,19 +147,34 @@ pub(crate) struct TickScale {
 }
 
 impl TickScale {
-    /// For an interval that starts at `start_units` and lasts `length` units of `2^exponent`, at most 2³¹ ticks.
-    pub(crate) const fn new(start_units: i64, length: u64, timer_hz: u32, exponent: i32) -> Self {
+    pub(crate) const fn new<const OCTAVES: usize>(
+        inverse: &Inverse<OCTAVES>,
+        Hz(rate): Hz,
+    ) -> Result<Self, ScheduleError> {
+        if rate == 0 {
+            return Err(ScheduleError::RateZero);
+        }
+        let [start_units, end_units] = [end_units(inverse, Side::Start), end_units(inverse, Side::End)];
+        let (length, exponent) = ((end_units - start_units) as u64, inverse.exposure.units().exponent);
+        if exponent_of_ticks(length, rate, exponent) > TICK_BITS {
+            return Err(too_high(length, rate, exponent));
+        }
         // An interval has 2⁴⁵ units at least (`domain::LEAST_INTERVAL`), and 2⁶² at most.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
         // One bit is not worth a 64-bit shift, which takes several instructions: most curves need none.
         let up = if up > 1 { up } else { 0 };
-        let zeros = timer_hz.leading_zeros() & 31;
+        let zeros = rate.leading_zeros() & 31;
         // Half ticks are delay · rate · 2^(exponent + 1), and the product is delay · rate · 2^(up + zeros - 32). All of
         // the interval makes a product of at least 2⁶⁰ and at most 2³² half ticks: so it moves down by 28 or more.
         let down = (up + zeros) as i32 - exponent - 33;
         // More than 63 would mean that all of the interval is tick 0, and a shift by 63 gives that, too.
         let down = if down < 63 { down as u32 } else { 63 };
-        Self { start_units, up, rate: timer_hz << zeros, down }
+        Ok(Self { start_units, up, rate: rate << zeros, down })
+    }
+
+    /// The tick at which the curve ends.
+    pub(crate) const fn length<const OCTAVES: usize>(&self, inverse: &Inverse<OCTAVES>) -> u32 {
+        self.tick(end_units(inverse, Side::End))
     }
 
     /// The nearest tick to a time.

@@ -7,4 +7,5 @@ mod oracle_check;
 mod promises;
 mod properties;
 mod refusals;
+mod slips;
 mod ticks;

@@ -4,7 +4,7 @@ use crate::support::curves::{Rng, is_valid};
 use crate::support::oracle::{Curve, Exact, Points, exp2};
 use crate::support::promise::{Figures, Questions};
 use crate::support::times;
-use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Hz, ShutterCurve};
 
 /// Any bits, with a weight for the numbers that curves are made of.
 fn number(rng: &mut Rng) -> f32 {
@@ -98,12 +98,12 @@ fn triggers_return_for_any_numbers() {
         let (n, hz, gap) = (rng.below(200) as u32, rng.bits() as u32, rng.bits() as u32);
         let shift = rng.below(32);
         for (hz, gap) in [(hz, gap), (hz >> shift, gap >> shift)] {
-            if let Ok(most) = curve.max_triggers(n, hz, gap) {
-                assert!(most <= n && (most > 0 || n == 0), "{most} of {n}: {asked:?}");
-            }
-            if let Ok(ticks) = curve.trigger_ticks(n, hz) {
-                assert!(ticks.is_sorted(), "{n} at {hz} Hz: {asked:?}");
-            }
+            let Ok(timed) = curve.at(Hz(hz)) else { continue };
+            let most = timed.min_gap(gap).max_triggers(n);
+            assert!(most <= n && (most > 0 || n == 0), "{most} of {n}: {asked:?}");
+            assert!(timed.min_gap(gap).trigger_ticks(most).is_ok(), "{most} of {n}: {asked:?}");
+            let ticks = timed.min_gap(0).trigger_ticks(n).expect("few triggers");
+            assert!(ticks.is_sorted(), "{n} at {hz} Hz: {asked:?}");
         }
     }
 }

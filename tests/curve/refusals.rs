@@ -7,7 +7,7 @@ use crate::support::curves::{
 use crate::support::oracle::{Curve, Points, exp2};
 use CurveError as E;
 use Part::{Closing, Opening, Plateau};
-use shutter_curve::{CubicBezier, CurveError, Part, ScheduleError, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Hz, Part, ScheduleError, ShutterCurve};
 
 const OPENS: Points = [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)];
 const CLOSES: Points = [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)];
@@ -423,22 +423,36 @@ fn messages() {
     }
     use ScheduleError as S;
     for (error, text) in [
-        (S::TickRateZero, "the tick rate is 0"),
-        (S::TickRateTooHigh { max: 9 }, "the interval is longer than 2^31 ticks; up to 9 Hz it is not"),
-        (S::TickRateTooHigh { max: 0 }, "the interval is longer than 2^31 ticks, whatever the rate"),
-        (S::TooManyTriggers { max: 1 << 22 }, "more triggers or pulses than the 4194304 that a frame can have"),
-        (S::CapacityExceeded { capacity: 16 }, "more triggers than the 16 that the `Vec` can hold"),
+        (S::RateZero, "the timer's rate is 0"),
+        (
+            S::RateTooHigh { max: Hz(9) },
+            "the curve has more than 2^31 ticks; use a rate of at most 9 Hz, and times in seconds",
+        ),
+        (
+            S::RateTooHigh { max: Hz(0) },
+            "the curve has more than 2^31 ticks at any rate; its times have to be in seconds",
+        ),
+        (S::TooMany { max: 1 << 22 }, "more triggers or pulses than fit; use at most 4194304"),
         (
             S::GapTooSmall { trigger: 3, gap: 562, min_gap: 1000 },
-            "the gap before trigger 3 is 562 ticks; the minimum is 1000",
+            "the gap before trigger 3 is 562 ticks; the minimum is 1000; \
+             use fewer triggers (max_triggers), or a faster timer",
         ),
-        (S::GapTooSmall { trigger: 1, gap: 1, min_gap: 2 }, "the gap before trigger 1 is 1 tick; the minimum is 2"),
         (
-            S::PulsesTooClose { pulse: 17, gap: 0, min_gap: 4711 },
-            "the gap before pulse 17 is 0 ticks; the minimum is 4711",
+            S::GapTooSmall { trigger: u32::MAX, gap: 0, min_gap: u32::MAX },
+            "the gap before trigger 4294967295 is 0 ticks; the minimum is 4294967295; \
+             use fewer triggers (max_triggers), or a faster timer; is its rate in Hz?",
         ),
-        (S::DutyOutOfRange, "the duty must be above 0 and at most 1"),
-        (S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 }, "pulse 17 lasts 815 ticks; the minimum is 4711"),
+        (
+            S::PulsesTooClose { pulse: 17, gap: 1, min_gap: 4711 },
+            "the gap before pulse 17 is 1 tick; the minimum is 4711; \
+             use fewer pulses, or a smaller duty; with min_gap(0) pulses may touch",
+        ),
+        (
+            S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 },
+            "pulse 17 lasts 815 ticks; the minimum is 4711; use fewer pulses, a larger duty, or a faster timer",
+        ),
+        (S::DutyOutOfRange, "the duty has to be above 0 and at most 1"),
     ] {
         told(&error, text);
     }

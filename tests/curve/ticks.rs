@@ -5,10 +5,15 @@ use crate::support::cases::shutter;
 use crate::support::curves::{Kind, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact};
 use crate::support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
-use shutter_curve::{CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, expect_valid};
+use shutter_curve::{CubicBezier, Hz, Pulse, ScheduleError, ShutterCurve, TimedCurve, TriggerTicks, expect};
 
 const SOFT: ShutterCurve =
-    expect_valid(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
+    expect!(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
+
+/// A curve on a timer whose triggers may share a tick, and whose pulses may be empty and touch.
+fn at<const OCTAVES: usize>(curve: &ShutterCurve<OCTAVES>, hz: u32) -> TimedCurve<'_, OCTAVES> {
+    curve.at(Hz(hz)).unwrap().min_gap(0).min_pulse(0)
+}
 
 #[test]
 fn a_static_curve_is_the_one_built_at_run_time() {
@@ -22,9 +27,11 @@ fn a_static_curve_is_the_one_built_at_run_time() {
 #[test]
 fn a_constant_has_the_ticks_of_run_time() {
     const DARK: ShutterCurve =
-        expect_valid(ShutterCurve::density(CubicBezier::new([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0), (1.0799999, 0.0)])));
-    const TICKS: Result<[u32; 16], ScheduleError> = DARK.ticks(1_000_000_000, 0);
-    assert_eq!(std::hint::black_box(&DARK).ticks(1_000_000_000, 0), TICKS);
+        expect!(ShutterCurve::density(CubicBezier::new([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0), (1.0799999, 0.0)])));
+    static CURVE: ShutterCurve = DARK;
+    const TIMED: TimedCurve = expect!(CURVE.at(Hz(1_000_000_000)));
+    const TICKS: Result<[u32; 16], ScheduleError> = TIMED.ticks();
+    assert_eq!(std::hint::black_box(&DARK).at(Hz(1_000_000_000)).unwrap().ticks(), TICKS);
 }
 
 #[test]
@@ -40,73 +47,61 @@ fn fractions_are_of_the_interval() {
 #[test]
 fn ticks_count_from_the_start() {
     let curve = ShutterCurve::linear(1000.0, 1000.0, 1001.0, 1001.0).unwrap();
-    let ticks: Vec<u32> = curve.trigger_ticks(4, 8).unwrap().collect();
+    let ticks: Vec<u32> = at(&curve, 8).trigger_ticks(4).unwrap().collect();
     assert_eq!(ticks, [1, 3, 5, 7]);
     let before = ShutterCurve::linear(-1.0, -1.0, 0.0, 0.0).unwrap();
-    assert!(before.trigger_ticks(4, 8).unwrap().eq([1, 3, 5, 7]));
+    assert!(at(&before, 8).trigger_ticks(4).unwrap().eq([1, 3, 5, 7]));
 }
 
 /// Every way to a frame refuses the same, in the same words.
 #[test]
 fn frames_that_are_refused() {
     use ScheduleError as S;
-    let many = |n: u32| vec![0; n as usize];
-    type Way<'a> = &'a dyn Fn(u32, u32) -> Option<S>;
-    let ways: [(&str, Way); 5] = [
-        ("trigger_ticks", &|n, hz| SOFT.trigger_ticks(n, hz).err()),
-        ("pulse_ticks", &|n, hz| SOFT.pulse_ticks(n, 0.5, hz).err()),
-        ("max_triggers", &|n, hz| SOFT.max_triggers(n, hz, 0).err()),
-        ("ticks_into", &|n, hz| SOFT.ticks_into(&mut many(n), hz, 0).err()),
-        ("pulses_into", &|n, hz| {
-            let mut pulses = vec![Pulse::default(); n as usize];
-            SOFT.pulses_into(&mut pulses, 0.5, hz, PulseLimits::default()).err()
-        }),
-    ];
-    let too_high = S::TickRateTooHigh { max: 1 << 31 };
-    let too_many = S::TooManyTriggers { max: MOST_TRIGGERS };
-    for (i, (name, error)) in ways.into_iter().enumerate() {
-        for (n, hz, expected) in [
-            (0, 0, Some(S::TickRateZero)),
-            (4, 0, Some(S::TickRateZero)),
-            (4, 1, None),
-            (4, 1 << 31, None),
-            (4, (1 << 31) + 1, Some(too_high)),
-            (4, u32::MAX, Some(too_high)),
-            (MOST_TRIGGERS + 1, 1000, Some(too_many)),
-            (1 << 31, 1000, Some(too_many)),
-            (u32::MAX, 1000, Some(too_many)),
-        ] {
-            // No slices of gigabytes.
-            if i < 3 || n <= MOST_TRIGGERS + 1 {
-                assert_eq!(error(n, hz), expected, "{name} of {n} at {hz} Hz");
-            }
+    let rate = |hz| SOFT.at(Hz(hz)).err();
+    assert_eq!((rate(0), rate(1), rate(1 << 31)), (Some(S::RateZero), None, None));
+    let too_high = Some(S::RateTooHigh { max: Hz(1 << 31) });
+    assert_eq!((rate((1 << 31) + 1), rate(u32::MAX)), (too_high, too_high));
+
+    let (timed, many) = (at(&SOFT, 1000), Some(S::TooMany { max: MOST_TRIGGERS }));
+    for (n, expected) in
+        [(0, None), (MOST_TRIGGERS, None), (MOST_TRIGGERS + 1, many), (1 << 31, many), (u32::MAX, many)]
+    {
+        assert_eq!(timed.trigger_ticks(n).err(), expected, "{n}");
+        assert_eq!(timed.pulse_ticks(n, 0.5).err(), expected, "{n}");
+        assert_eq!(timed.max_triggers(n), n.min(MOST_TRIGGERS));
+        // No slices of gigabytes.
+        if n <= MOST_TRIGGERS + 1 {
+            assert_eq!(timed.ticks_into(&mut vec![0; n as usize]).err(), expected, "{n}");
+            assert_eq!(timed.pulses_into(&mut vec![Pulse::default(); n as usize], 0.5).err(), expected, "{n}");
         }
     }
     for duty in [0.0, -0.0, -0.5, f32::NAN, 1.0 + f32::EPSILON, f32::INFINITY] {
-        assert_eq!(SOFT.pulse_ticks(3, duty, 1000).err(), Some(S::DutyOutOfRange));
-        let pulses = &mut [Pulse::default(); 3];
-        let error = SOFT.pulses_into(pulses, duty, 1000, PulseLimits::default());
-        assert_eq!(error, Err(S::DutyOutOfRange));
+        assert_eq!(timed.pulse_ticks(3, duty).err(), Some(S::DutyOutOfRange));
+        assert_eq!(timed.pulses::<3>(duty), Err(S::DutyOutOfRange));
     }
-    let mut pulses = [Pulse::default(); 12];
-    let mut checked =
-        |duty, min_pulse, min_gap| SOFT.pulses_into(&mut pulses, duty, 1_000_000, PulseLimits { min_pulse, min_gap });
+    let timed = SOFT.at(Hz(1_000_000)).unwrap();
+    let checked = |duty, min_pulse, min_gap| {
+        let timed = timed.min_pulse(min_pulse).min_gap(min_gap);
+        let error = timed.pulses::<12>(duty).err();
+        assert_eq!(timed.pulse_ticks(12, duty).err(), error);
+        error
+    };
     let (pulse, length, min_pulse) = (2, 31_250, 32_000);
-    assert_eq!(checked(0.5, 30_000, 30_000), Ok(()));
-    assert_eq!(checked(0.5, length, 0), Ok(()));
-    assert_eq!(checked(0.5, min_pulse, 0), Err(S::PulseTooShort { pulse, length, min_pulse }));
-    let touch = S::PulsesTooClose { pulse: 1, gap: 0, min_gap: 1 };
-    assert_eq!((checked(1.0, 0, 0), checked(1.0, 0, 1)), (Ok(()), Err(touch)));
+    assert_eq!(checked(0.5, 30_000, 30_000), None);
+    assert_eq!(checked(0.5, length, 0), None);
+    assert_eq!(checked(0.5, min_pulse, 0), Some(S::PulseTooShort { pulse, length, min_pulse }));
+    let touch = Some(S::PulsesTooClose { pulse: 1, gap: 0, min_gap: 1 });
+    assert_eq!((checked(1.0, 0, 0), checked(1.0, 0, 1)), (None, touch));
 }
 
 #[test]
 fn many_triggers() {
-    let mut ticks = SOFT.trigger_ticks(MOST_TRIGGERS, 1 << 31).unwrap();
+    let mut ticks = at(&SOFT, 1 << 31).trigger_ticks(MOST_TRIGGERS).unwrap();
     assert_eq!(ticks.len(), MOST_TRIGGERS as usize);
     assert!(ticks.next().unwrap() < ticks.nth(1000).unwrap());
     // The last one, and none beyond.
     let curve = ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap();
-    let frame = || curve.trigger_ticks(MOST_TRIGGERS, 1000).unwrap();
+    let frame = || at(&curve, 1000).trigger_ticks(MOST_TRIGGERS).unwrap();
     assert_eq!(frame().nth_back(0), Some(1000));
     assert_eq!(frame().nth_back(MOST_TRIGGERS as usize), None);
 }
@@ -114,54 +109,46 @@ fn many_triggers() {
 #[test]
 fn no_triggers() {
     let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
-    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().next(), None);
-    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().nth(1), None);
+    assert_eq!(at(&curve, 1000).trigger_ticks(0).unwrap().next(), None);
+    assert_eq!(at(&curve, 1000).trigger_ticks(0).unwrap().nth(1), None);
 }
 
 #[test]
 fn the_greatest_tick_rate_is_named() {
     for length in [0.51, 0.7, 1.0, 10.0, 12345.678, 2.0f32.powi(31)] {
         let curve = ShutterCurve::linear(0.0, 0.0, length, length).unwrap();
-        let Err(ScheduleError::TickRateTooHigh { max }) = curve.trigger_ticks(1, u32::MAX) else {
+        let Err(ScheduleError::RateTooHigh { max }) = curve.at(Hz(u32::MAX)) else {
             panic!("{length}: the interval has more than 2^31 ticks");
         };
-        assert!(max > 0 && curve.trigger_ticks(1, max).is_ok(), "{length}: {max}");
-        let error = curve.trigger_ticks(1, max + 1).err();
-        assert_eq!(error, Some(ScheduleError::TickRateTooHigh { max }), "{length}");
+        assert!(max > Hz(0) && curve.at(max).is_ok(), "{length}: {max:?}");
+        assert!(curve.at(max).unwrap().length() <= 1 << 31);
+        assert_eq!(curve.at(Hz(max.0 + 1)).err(), Some(ScheduleError::RateTooHigh { max }), "{length}");
     }
     let long = ShutterCurve::linear(0.0, 0.0, 1e10, 1e10).unwrap();
-    assert_eq!(long.trigger_ticks(1, 1).err(), Some(ScheduleError::TickRateTooHigh { max: 0 }));
+    assert_eq!(long.at(Hz(1)).err(), Some(ScheduleError::RateTooHigh { max: Hz(0) }));
 }
 
 #[test]
 fn slices_for_a_schedule() {
     let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
     // None and one keep any gap; two do not.
-    assert_eq!(curve.ticks_into(&mut [], 1000, u32::MAX), Ok(()));
-    assert_eq!(curve.ticks_into(&mut [0], 1000, u32::MAX), Ok(()));
+    let timed = at(&curve, 1000).min_gap(u32::MAX);
+    assert_eq!(timed.ticks_into(&mut []), Ok(()));
+    assert_eq!(timed.ticks_into(&mut [0]), Ok(()));
     let gap = ScheduleError::GapTooSmall { trigger: 1, gap: 375, min_gap: u32::MAX };
-    assert_eq!(curve.ticks_into(&mut [0; 2], 1000, u32::MAX), Err(gap));
-    // More triggers than ticks.
-    let Err(error) = curve.ticks_into(&mut [0; 5000], 1000, 1) else { panic!("5000 ticks of 1000") };
-    assert!(matches!(error, ScheduleError::GapTooSmall { gap: 0, min_gap: 1, .. }), "{error}");
-    assert_eq!(curve.ticks_into(&mut [0; 5000], 1000, 0), Ok(()));
-    // A constant can panic with the reason.
-    const REASON: &str = if let Err(error) = SOFT.ticks::<2>(1000, u32::MAX) { error.message() } else { "" };
-    assert_eq!(REASON, "a gap between triggers is below the minimum");
+    assert_eq!(timed.ticks_into(&mut [0; 2]), Err(gap));
 }
 
 #[test]
 fn the_max_triggers_of_anything() {
     let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
-    assert_eq!(curve.max_triggers(0, 1000, 1), Ok(0));
-    assert_eq!(curve.max_triggers(1, 1000, u32::MAX), Ok(1));
+    let most = |n, gap| at(&curve, 1000).min_gap(gap).max_triggers(n);
+    assert_eq!((most(0, 1), most(1, u32::MAX), most(MOST_TRIGGERS, u32::MAX)), (0, 1, 1));
     // A gap of 0 asks for nothing.
-    assert_eq!(curve.max_triggers(MOST_TRIGGERS, 1000, 0), Ok(MOST_TRIGGERS));
-    assert_eq!(curve.max_triggers(MOST_TRIGGERS, 1000, u32::MAX), Ok(1));
-    assert_eq!(curve.max_triggers(2, 1000, 376), Ok(1));
-    assert_eq!(curve.max_triggers(2, 1000, 375), Ok(2));
+    assert_eq!((most(MOST_TRIGGERS, 0), most(u32::MAX, 0)), (MOST_TRIGGERS, MOST_TRIGGERS));
+    assert_eq!((most(2, 376), most(2, 375)), (1, 2));
     // As many as there are ticks, and none to spare.
-    let most = curve.max_triggers(MOST_TRIGGERS, 1 << 31, 1 << 20).unwrap();
+    let most = at(&curve, 1 << 31).min_gap(1 << 20).max_triggers(MOST_TRIGGERS);
     assert!((1535..=1537).contains(&most), "{most}");
 }
 
@@ -200,17 +187,17 @@ where
 
 #[test]
 fn iterators_from_either_end_and_anywhere() {
-    let mut ticks = SOFT.trigger_ticks(3, 1000).unwrap();
+    let mut ticks = at(&SOFT, 1000).trigger_ticks(3).unwrap();
     ticks.next();
     assert_eq!(format!("{ticks:?}"), "TriggerTicks { left: 1..3, .. }");
     for n in [0, 1, 2, 7, 64, 300] {
         // Direct, and direct with some searched for.
         for hz in [1_000_000, 1 << 24] {
-            let ticks: Vec<u32> = SOFT.trigger_ticks(n, hz).unwrap().collect();
-            judge_iterator(&ticks, || SOFT.trigger_ticks(n, hz).unwrap());
+            let ticks: Vec<u32> = at(&SOFT, hz).trigger_ticks(n).unwrap().collect();
+            judge_iterator(&ticks, || at(&SOFT, hz).trigger_ticks(n).unwrap());
         }
-        let pulses: Vec<Pulse> = SOFT.pulse_ticks(n, 0.4, 1_000_000).unwrap().collect();
-        judge_iterator(&pulses, || SOFT.pulse_ticks(n, 0.4, 1_000_000).unwrap());
+        let pulses: Vec<Pulse> = at(&SOFT, 1_000_000).pulse_ticks(n, 0.4).unwrap().collect();
+        judge_iterator(&pulses, || at(&SOFT, 1_000_000).pulse_ticks(n, 0.4).unwrap());
     }
 }
 
@@ -219,10 +206,10 @@ fn iterators_from_either_end_and_anywhere() {
 fn a_static_can_hold_an_iterator() {
     static CURVE: ShutterCurve = SOFT;
     static FRAME: std::sync::Mutex<Option<TriggerTicks<'static>>> = std::sync::Mutex::new(None);
-    *FRAME.lock().unwrap() = CURVE.trigger_ticks(3, 1000).ok();
+    *FRAME.lock().unwrap() = at(&CURVE, 1000).trigger_ticks(3).ok();
     let next = || FRAME.lock().unwrap().as_mut().and_then(Iterator::next);
     let ticks: Vec<u32> = std::iter::from_fn(next).collect();
-    assert!(ticks.iter().copied().eq(CURVE.trigger_ticks(3, 1000).unwrap()));
+    assert!(ticks.iter().copied().eq(at(&CURVE, 1000).trigger_ticks(3).unwrap()));
     assert_eq!(ticks[1], 500);
 }
 
@@ -236,7 +223,7 @@ fn direct_frames_are_large() {
         println!("{}: {most}", one.name);
         assert!(most >= 127, "{}: {most}", one.name);
         // No frame of one more is direct, unless the plateau's line is the limit, or what is left out for rounding.
-        let frame = curve.trigger_ticks(most + 2 + most / 512, 1).unwrap();
+        let frame = at(&curve, 1).trigger_ticks(most + 2 + most / 512).unwrap();
         let last = frame.len() as u32 - 1;
         assert!(!frame.is_direct(0) || !frame.is_direct(last), "{} has more", one.name);
     }
@@ -295,24 +282,28 @@ fn a_closing_ramp_with_two_bends_has_direct_triggers() {
     assert!(curve.direct_triggers() >= 255, "{}", curve.direct_triggers());
 }
 
-/// A schedule has the ticks of its triggers, and says which is the first that comes too soon.
+/// A schedule has the ticks of its triggers, and says which is the first that comes too soon; so does the iterator.
 fn judge_filled<const OCTAVES: usize>(shutter: &ShutterCurve<OCTAVES>, n: u32, hz: u32) {
+    let Ok(timed) = shutter.at(Hz(hz)) else { return };
     let mut filled = vec![0; n as usize];
-    let ticks: Vec<u32> = match shutter.trigger_ticks(n, hz) {
-        Ok(ticks) => ticks.collect(),
-        Err(error) => return assert_eq!(shutter.ticks_into(&mut filled, hz, 0), Err(error)),
-    };
-    shutter.ticks_into(&mut filled, hz, 0).unwrap();
+    let ticks: Vec<u32> = timed.min_gap(0).trigger_ticks(n).unwrap().collect();
+    timed.min_gap(0).ticks_into(&mut filled).unwrap();
     assert_eq!(filled, ticks, "{n} triggers at {hz} Hz: {shutter:?}");
+    assert!(ticks.last() <= Some(&timed.length()));
     let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
     let mut sorted: Vec<u32> = gaps.clone().collect();
     sorted.sort_unstable();
-    for min_gap in [sorted.first(), sorted.get(n as usize / 2), sorted.last()].into_iter().flatten() {
-        let min_gap = min_gap + 1;
-        let soon = gaps.clone().position(|gap| gap < min_gap).unwrap();
-        let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
-        let error = ScheduleError::GapTooSmall { trigger, gap, min_gap };
-        assert_eq!(shutter.ticks_into(&mut filled, hz, min_gap), Err(error), "{n}: {shutter:?}");
+    for gap in [sorted.first(), sorted.get(n as usize / 2), sorted.last()].into_iter().flatten() {
+        for min_gap in [*gap, gap + 1] {
+            let soon = gaps.clone().position(|gap| gap < min_gap);
+            let error = soon.map(|soon| {
+                let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
+                ScheduleError::GapTooSmall { trigger, gap, min_gap }
+            });
+            let timed = timed.min_gap(min_gap);
+            assert_eq!(timed.ticks_into(&mut filled).err(), error, "{n}: {shutter:?}");
+            assert_eq!(timed.trigger_ticks(n).err(), error, "{n}: {shutter:?}");
+        }
     }
 }
 
@@ -338,26 +329,23 @@ fn a_filled_schedule_is_each_trigger_alone() {
 
 #[cfg(feature = "heapless-v0_9")]
 mod checked {
-    use super::{SOFT, ScheduleError};
+    use super::{SOFT, ScheduleError, at};
 
     #[test]
     fn a_schedule_is_the_ticks() {
-        let schedule = SOFT.ticks_vec::<64>(64, 1_000_000, 100).unwrap();
-        assert!(schedule.iter().copied().eq(SOFT.trigger_ticks(64, 1_000_000).unwrap()));
+        let timed = at(&SOFT, 1_000_000);
+        let schedule = timed.min_gap(100).ticks_vec::<64>(64).unwrap();
+        assert!(schedule.iter().copied().eq(timed.trigger_ticks(64).unwrap()));
         assert!(schedule.windows(2).all(|pair| pair[1] - pair[0] >= 100));
-        assert!(SOFT.ticks_vec::<4>(0, 1000, 10).unwrap().is_empty());
+        assert!(timed.ticks_vec::<4>(0).unwrap().is_empty());
     }
 
     #[test]
     fn each_reason_its_own_error() {
-        let error = |n, hz, gap| SOFT.ticks_vec::<16>(n, hz, gap).err();
-        let capacity = Some(ScheduleError::CapacityExceeded { capacity: 16 });
-        assert_eq!(error(17, 1000, 0), capacity);
-        assert_eq!(error(u32::MAX, 1000, 0), capacity);
-        assert_eq!(error(16, 1000, 0), None);
-        assert_eq!(error(4, 0, 0), Some(ScheduleError::TickRateZero));
-        let gap = Some(ScheduleError::GapTooSmall { trigger: 1, gap: 94, min_gap: 114 });
-        assert_eq!(error(4, 500, 114), gap);
+        let error = |n, gap| at(&SOFT, 500).min_gap(gap).ticks_vec::<16>(n).err();
+        let many = Some(ScheduleError::TooMany { max: 16 });
+        assert_eq!((error(16, 0), error(17, 0), error(u32::MAX, 0)), (None, many, many));
+        assert_eq!(error(4, 114), Some(ScheduleError::GapTooSmall { trigger: 1, gap: 94, min_gap: 114 }));
     }
 }
 
@@ -368,13 +356,14 @@ fn half_open() -> ShutterCurve {
 
 #[test]
 fn the_most_that_keep_the_gap() {
-    let keeps = |curve: &ShutterCurve, n: u32, hz, gap| curve.ticks_into(&mut vec![0; n as usize], hz, gap).is_ok();
+    let keeps =
+        |curve: &ShutterCurve, n: u32, hz, gap| at(curve, hz).min_gap(gap).ticks_into(&mut vec![0; n as usize]).is_ok();
     for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap(), half_open()] {
         for (hz, gap) in
             [(1000, 47), (1000, 50), (1_000_000, 33_333), (1_000_000, 1_000), (100, 7), (10, 9), (7, 100), (50, 1)]
         {
             for wanted in [2, 3, 64, 1000, 10_000] {
-                let found = curve.max_triggers(wanted, hz, gap).unwrap();
+                let found = at(&curve, hz).min_gap(gap).max_triggers(wanted);
                 if keeps(&curve, wanted, hz, gap) {
                     assert_eq!(found, wanted, "{hz} Hz, {gap} ticks");
                     continue;
@@ -392,14 +381,14 @@ fn the_most_that_keep_the_gap() {
 #[test]
 fn the_most_on_a_shutter_that_never_fully_opens() {
     for n in 21..=64 {
-        assert_eq!(half_open().max_triggers(n, 500, 50), Ok(20), "{n}");
+        assert_eq!(at(&half_open(), 500).min_gap(50).max_triggers(n), 20, "{n}");
     }
 }
 
 /// Sixteen octaves a side are within what the compiler evaluates in a constant.
 #[test]
 fn a_large_curve_is_a_constant_too() {
-    static LARGE: ShutterCurve<16> = expect_valid(ShutterCurve::with_octaves(
+    static LARGE: ShutterCurve<16> = expect!(ShutterCurve::with_octaves(
         CubicBezier::new([(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)]),
         CubicBezier::new([(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)]),
     ));
@@ -450,7 +439,7 @@ fn the_worst_tick_of_a_typical_curve() {
     for (opening, closing, (n, i, hz)) in found {
         let curve = Curve::shutter(opening, closing);
         let (exact, start) = (Exact::new(&curve), Dd::from(curve.open_start()));
-        let tick = shutter::<8>(&curve).trigger_ticks(n, hz).unwrap().nth(i).unwrap();
+        let tick = at(&shutter::<8>(&curve), hz).trigger_ticks(n).unwrap().nth(i).unwrap();
         let u = Dd::from(2.0 * i as f64 + 1.0) / Dd::from(2.0 * f64::from(n));
         let time = (exact.inverse_cdf_dd(u) - start) * f64::from(hz);
         let error = (time - Dd::from(f64::from(tick))).hi;
@@ -465,13 +454,13 @@ fn doses_are_equal() {
     for one in named().into_iter().filter(|one| one.kind == Kind::Typical) {
         let (exact, curve) = (Exact::new(&one.curve), shutter::<8>(&one.curve));
         let hz = (1e6 / (one.curve.close_end() - one.curve.open_start())) as u32;
-        let at = |tick: u32| {
+        let cdf = |tick: u32| {
             let t = Dd::from(one.curve.open_start()) + Dd::from(f64::from(tick)) / Dd::from(f64::from(hz));
             exact.cdf(t)
         };
         for (n, duty) in [(12, 0.3), (12, 1.0), (5, 0.01), (64, 0.5)] {
-            for Pulse { on, off } in curve.pulse_ticks(n, duty, hz).unwrap() {
-                let dose = (at(off) - at(on)).hi;
+            for Pulse { on, off } in at(&curve, hz).pulse_ticks(n, duty).unwrap() {
+                let dose = (cdf(off) - cdf(on)).hi;
                 let even = f64::from(duty) / f64::from(n);
                 // The openness is at most 1: a tick of it is 1/A ticks of the exposure.
                 let tick = 1.0 / (f64::from(hz) * f64::from(curve.exposure()));
@@ -484,7 +473,7 @@ fn doses_are_equal() {
 #[test]
 fn pulses_of_the_whole_share_touch() {
     for n in [1, 2, 12, 100, 1 << 22] {
-        let pulses = SOFT.pulse_ticks(n, 1.0, 1 << 23).unwrap();
+        let pulses = at(&SOFT, 1 << 23).pulse_ticks(n, 1.0).unwrap();
         assert_eq!(pulses.clone().next().map(|pulse| pulse.on), Some(0));
         assert_eq!(pulses.clone().next_back().map(|pulse| pulse.off), Some(1 << 23));
         let few: Vec<Pulse> = pulses.take(100).collect();
@@ -499,10 +488,11 @@ fn ends_at_one_half_are_in_order() {
     let closing = CubicBezier::line((0.93, 1.0), (1.0, 0.0));
     let curve = ShutterCurve::<8>::with_octaves(opening, closing).unwrap();
     let hz = 1_930_098_667;
-    let touching: Vec<Pulse> = curve.pulse_ticks(2, 1.0, hz).unwrap().collect();
+    let timed = at(&curve, hz);
+    let touching: Vec<Pulse> = timed.pulse_ticks(2, 1.0).unwrap().collect();
     assert_eq!(touching[0].off, touching[1].on);
-    let Pulse { on, off } = curve.pulse_ticks(1, 1e-30, hz).unwrap().next().unwrap();
+    let Pulse { on, off } = timed.pulse_ticks(1, 1e-30).unwrap().next().unwrap();
     assert_eq!(on, off);
-    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 2], 1.0, hz, PulseLimits::default()), Ok(()));
-    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 1], 1e-30, hz, PulseLimits::default()), Ok(()));
+    assert_eq!(timed.pulses_into(&mut [Pulse::default(); 2], 1.0), Ok(()));
+    assert_eq!(timed.pulses_into(&mut [Pulse::default(); 1], 1e-30), Ok(()));
 }

@@ -26,6 +26,8 @@ mod ramp;
 mod search;
 #[path = "../../src/shutter.rs"]
 mod shutter;
+#[path = "../../src/text.rs"]
+mod text;
 #[path = "../../src/trigger/mod.rs"]
 mod trigger;
 
@@ -40,6 +42,8 @@ mod units;
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
 pub use search::MAX_EVALUATIONS;
-pub use shutter::{ShutterCurve, expect_valid};
+pub use shutter::ShutterCurve;
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
-pub use trigger::pulse::{Pulse, PulseLimits};
+pub use trigger::pulse::Pulse;
+pub use trigger::ticks::Hz;
+pub use trigger::timed::TimedCurve;

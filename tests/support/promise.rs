@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use shutter_curve::{MAX_EVALUATIONS, ShutterCurve};
+use shutter_curve::{Hz, MAX_EVALUATIONS, ShutterCurve};
 
 use super::aimed::{aimed_triggers, aimed_ts, aimed_us};
 use super::cases::shutter;
@@ -212,7 +212,8 @@ impl Figures {
         let frames = (1..=most.min(20)).chain((0..22).map(|k| most >> k));
         for n in frames.filter(|n| *n > 0) {
             // At 1 tick per unit of time nearly every interval has few enough.
-            let Ok(frame) = ours.trigger_ticks(n, 1) else { continue };
+            let Ok(timed) = ours.at(Hz(1)) else { continue };
+            let frame = timed.min_gap(0).trigger_ticks(n).expect("few triggers");
             for i in (0..n).step_by(n as usize / 50 + 1).chain([n / 2, n - 1]) {
                 let u = (i as f32 + 0.5) / n as f32;
                 let at = || format!("{i} of {n}, {most} with {OCTAVES} octaves");
@@ -234,19 +235,20 @@ impl Figures {
     ) {
         let &Frame { n, duty, first, .. } = frame;
         let (skipped, count) = (first as usize, frame.exact.len());
-        let ticks: Option<Vec<[u32; 2]>> = match duty {
-            None => ours
-                .trigger_ticks(n, hz)
-                .ok()
-                .map(|ticks| ticks.skip(skipped).take(count).map(|tick| [tick; 2]).collect()),
-            Some(duty) => ours
-                .pulse_ticks(n, duty, hz)
-                .ok()
-                .map(|pulses| pulses.skip(skipped).take(count).map(|pulse| [pulse.on, pulse.off]).collect()),
-        };
-        let Some(ticks) = ticks else {
+        let Ok(timed) = ours.at(Hz(hz)) else {
             self.expect("tick rate", false, || format!("{n} at {hz} Hz"), exact);
             return;
+        };
+        let timed = timed.min_gap(0).min_pulse(0);
+        let ticks: Vec<[u32; 2]> = match duty {
+            None => {
+                let ticks = timed.trigger_ticks(n).expect("few triggers");
+                ticks.skip(skipped).take(count).map(|tick| [tick; 2]).collect()
+            }
+            Some(duty) => {
+                let pulses = timed.pulse_ticks(n, duty).expect("few pulses");
+                pulses.skip(skipped).take(count).map(|pulse| [pulse.on, pulse.off]).collect()
+            }
         };
         let curve = exact.curve();
         let length = f64::from(curve.close_end()) - f64::from(curve.open_start());

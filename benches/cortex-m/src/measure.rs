@@ -167,7 +167,7 @@ fn evaluations<const OCTAVES: usize>(place: usize) -> Box<dyn Fn(f32) -> u32> {
 /// functions than the inverse and a tick.
 fn direct(series: &Series) -> Vec<bool> {
     let curve = curve::<DEFAULT>(series.curve);
-    let frame = curve.trigger_ticks(MOST_TRIGGERS, TICK_HZ).expect("a good rate");
+    let frame = curve.at(TICK_HZ).and_then(|timed| timed.min_gap(0).trigger_ticks(MOST_TRIGGERS)).expect("a good rate");
     let direct = series.us.iter().map(|u| match series.of {
         (InverseCdf | Static, DEFAULT) => curve.is_direct(*u),
         (Tick, DEFAULT) => frame.is_direct(trigger(*u)),

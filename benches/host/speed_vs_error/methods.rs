@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use shutter_curve::CubicBezier;
+use shutter_curve::{CubicBezier, Hz};
 
 use crate::support::cases::shutter;
 use crate::support::curves::{Rng, line, named};
@@ -112,10 +112,12 @@ pub fn calls() -> Vec<(&'static str, &'static str, Box<dyn Inverse>)> {
         let (by_cdf, by_frame) = (ours.clone(), ours.clone());
         let schedule = move |_| {
             let mut ticks = [0; 64];
-            f32::from(u8::from(ours.ticks_into(&mut ticks, 1 << 24, 1).is_ok())) + ticks[63] as f32
+            let is_planned = ours.at(Hz(1 << 24)).is_ok_and(|timed| timed.ticks_into(&mut ticks).is_ok());
+            f32::from(u8::from(is_planned)) + ticks[63] as f32
         };
         let tick = move |u: f32| {
-            let mut frame = by_frame.trigger_ticks(1 << 22, 1 << 24).expect("a good rate");
+            let mut frame =
+                by_frame.at(Hz(1 << 24)).and_then(|timed| timed.trigger_ticks(1 << 22)).expect("a good rate");
             frame.nth((u * (1 << 22) as f32) as usize).unwrap_or_default() as f32
         };
         [

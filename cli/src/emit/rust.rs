@@ -155,11 +155,11 @@ pub fn due(edge: {int}) -> impl ExactSizeIterator<Item = {item}> {{
 fn shutter(plan: &Plan) -> String {
     format!(
         "
-use shutter_curve::{{ShutterCurve, expect_valid}};
+use shutter_curve::{{ShutterCurve, expect}};
 
 /// The shutter, its times in seconds.
 {TABLE}
-pub static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::{});
+pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::{});
 ",
         constructor(&plan.shape)
     )

@@ -107,19 +107,22 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
         assert_eq!((pulses, text.contains("TICKS: [")), (has_pulses(plan), !pulses));
         folder.write(&format!("{module}.rs"), text);
         folder.write(&format!("{module}_curve.rs"), curve);
-        main += &format!("{{ use alone::{module} as scene; use curves::{module}_curve as curve;\n");
+        main += &format!(
+            "{{ use alone::{module} as scene; use curves::{module}_curve as curve;
+            let _timed = curve::SHUTTER.at(shutter_curve::Hz(curve::TIMER_HZ)).unwrap().min_gap(0).min_pulse(0);\n"
+        );
         main += match pulses {
             true => {
                 "assert_eq!(scene::PULSES, curve::PULSES); for (on, off) in scene::PULSES { println!(\"{on} {off}\"); }"
             }
             false => {
-                "assert!(curve::SHUTTER.trigger_ticks(curve::COUNT as u32, curve::TIMER_HZ).unwrap().eq(scene::TICKS));
+                "assert!(_timed.trigger_ticks(curve::COUNT as u32).unwrap().eq(scene::TICKS));
                 for tick in scene::TICKS { println!(\"{tick}\"); }"
             }
         };
         if let Lamp::Doses { duty } = plan.lamp {
             main += &format!(
-                "let pulses = curve::SHUTTER.pulse_ticks(curve::COUNT as u32, {duty:?}, curve::TIMER_HZ).unwrap();
+                "let pulses = _timed.pulse_ticks(curve::COUNT as u32, {duty:?}).unwrap();
                 assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(scene::PULSES));"
             );
         }
@@ -131,7 +134,7 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
     is_clean(&folder, "alone.rs", &alone, &[]);
     is_clean(&folder, "curves.rs", &curves, &["--extern", the_crate()]);
     let libraries = ["--extern", "alone=libalone.rlib", "--extern", "curves=libcurves.rlib"];
-    let args = [&libraries[..], &["-L", "../crate"]].concat();
+    let args = [&libraries[..], &["--extern", the_crate(), "-L", "../crate"]].concat();
     assert_eq!(ran(&folder, &format!("fn main() {{\n{main}}}\n"), &args), expected);
 }
 
@@ -156,7 +159,8 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
             for speed in &times::SPEEDS { println!("{} {:?}", speed.delay_ticks, speed.ticks); }
             for speed in &lit::SPEEDS {
                 let n = u32::try_from(speed.pulses.len()).unwrap();
-                let pulses = speed.shutter.pulse_ticks(n, 0.3, lit::TIMER_HZ).unwrap();
+                let timed = speed.shutter.at(shutter_curve::Hz(lit::TIMER_HZ)).unwrap();
+                let pulses = timed.pulse_ticks(n, 0.3).unwrap();
                 assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(speed.pulses.iter().copied()));
             }
         }"#;

@@ -39,8 +39,8 @@ fn whole(random: &mut Random) -> Vec<u8> {
         4 | 8 => "",
         5 => "t (µs)\tCH1\n",
         6 => "Samplerate: 44100 Hz\n",
-        9 => "CH1V,CH2V,t0 = -1.0ms, tInc = 100us,\n",
-        10 => "Sampling period [us];100\nCH1;CH2\n",
+        9 => "Sample Interval,1e-04\nCH1,CH2\n",
+        10 => "Sample Interval;1e-04\nCH1;CH2\n",
         _ => "Sample,Time [s],Light\n",
     });
     let shots = if form == 0 { 1 + below(random, 3) } else { 1 };
@@ -57,7 +57,7 @@ fn whole(random: &mut Random) -> Vec<u8> {
             5 => format!("{:.2}\t{:.0}\n", t * 1e6, 100.0 * v),
             6 => format!("{v:.4}\n"),
             9 => format!("{:.2},{v:.4},,\n", f64::from(v > 1.0)),
-            10 => format!("{v:.4};({v:.4})\n").replace('.', ","),
+            10 => format!("{v:.4};{v:.4}\n").replace('.', ","),
             8 => format!("\"{t:.6}\",\"{v:.4}\"\n").replace('.', ","),
             _ => format!("{k},{t:.6},{v:.5}\n"),
         };

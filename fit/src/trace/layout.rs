@@ -1,8 +1,8 @@
 //! Which columns of a table are the time and the signals, and in which unit or at which rate.
 
 use super::asked::{Column, Options};
-use super::names::{Said, is_axis, is_count, is_time, unit_in};
-use super::numbers::{number, short_of};
+use super::names::{Said, said};
+use super::numbers::{short_of, time_of_day};
 use super::reading::{Clock, Reading, Told};
 use super::samples::{LARGEST, median};
 use super::settings::Settings;
@@ -14,8 +14,6 @@ use crate::unit::Unit;
 #[derive(Clone, Debug)]
 pub struct Layout {
     pub time: Time,
-    /// Other columns of times by their name, where a table is put together from several.
-    times: Vec<usize>,
     /// The columns that may hold a signal, of which there is one at least.
     pub signals: Vec<usize>,
     /// The column of the camera's sync, which is none of these.
@@ -27,9 +25,20 @@ pub struct Layout {
 pub enum Time {
     /// A column of times, in this unit.
     Column(usize, Unit),
+    /// A column of times of day, which count from the first one.
+    Day(usize, f64),
     /// A column of numbers that count steps of so many seconds, and what its first one is, or the rows counted; and the
     /// first time, if something tells it.
     Steps { column: Option<(usize, f64)>, start: Option<f64>, step: f64 },
+}
+
+impl Time {
+    pub fn column(&self) -> Option<usize> {
+        match self {
+            Self::Column(column, _) | Self::Day(column, _) => Some(*column),
+            Self::Steps { column, .. } => column.map(|(column, _)| column),
+        }
+    }
 }
 
 /// Do the numbers count the rows?
@@ -67,46 +76,34 @@ impl Layout {
         if let Some(rate) = options.rate {
             // The times of the file do not count then, so those that are asked for are signals.
             let signals = columns.signals(&asked, None, sync)?;
-            let step = 1.0 / rate;
-            let time = Time::Steps { column: None, start: settings.start(step), step };
-            return Ok(Self { time, times: Vec::new(), signals, sync, told: Told::Asked });
+            let (start, step) = (settings.start, 1.0 / rate);
+            let against = columns.against(step);
+            let told = against.map_or(Told::Asked, Told::Against);
+            return Ok(Self { time: Time::Steps { column: None, start, step }, signals, sync, told });
         }
         let (time, asked) = match asked.as_slice() {
             [time, signals @ ..] if !signals.is_empty() => (Some(*time), signals),
-            asked => {
-                let others = [asked, sync.as_slice()].concat();
-                (columns.time(&others, &settings, options.unit)?, asked)
-            }
+            asked => (columns.time(&[asked, sync.as_slice()].concat(), &settings, options.unit)?, asked),
         };
         let signals = columns.signals(asked, time, sync)?;
         let (time, told) = columns.clock(time, &settings, options.unit)?;
-        let times = match time {
-            Time::Column(column, _) if options.columns.len() < 2 => columns.named_alike(column),
-            _ => Vec::new(),
-        };
-        Ok(Self { time, times, signals, sync, told })
-    }
-
-    /// Where the times of a signal are: of several columns of times, the next one to its left.
-    fn time_of(&self, signal: usize) -> Time {
-        match (self.time, self.times.iter().rev().find(|k| **k < signal)) {
-            (Time::Column(_, unit), Some(column)) => Time::Column(*column, unit),
-            (time, _) => time,
+        if let (Some(time), true) = (time.column(), options.columns.len() < 2) {
+            columns.only_times(time)?;
         }
+        Ok(Self { time, signals, sync, told })
     }
 
     /// As a reader is told, where the signal is in this column.
     pub fn reading(&self, table: &Table, signal: usize) -> Reading {
         let named = |column: usize| (column + 1, table.name(column));
-        let (time, clock, first) = match self.time_of(signal) {
-            Time::Column(column, unit) => (Some(named(column)), Clock::Unit(unit), None),
-            Time::Steps { column, step, start } => {
-                (column.map(|(column, _)| named(column)), Clock::Rate(1.0 / step), start)
-            }
+        let (clock, first) = match self.time {
+            Time::Column(_, unit) => (Clock::Unit(unit), None),
+            Time::Day(..) => (Clock::Unit(Unit::Second), Some(0.0)),
+            Time::Steps { step, start, .. } => (Clock::Rate(1.0 / step), start),
         };
         Reading {
             columns: table.width,
-            time,
+            time: self.time.column().map(named),
             signal: named(signal),
             sync: self.sync.map(named),
             clock,
@@ -116,32 +113,31 @@ impl Layout {
             segments: 0,
         }
     }
+}
 
-    /// A row's time in seconds and the signal in a column, which may be infinite, or what is wrong with them.
-    pub fn sample(&self, row: usize, fields: &[&str], signal: usize, comma: bool) -> Result<(f64, f64), String> {
-        let get = |what: &str, k: usize| {
-            let field = fields.get(k).copied().unwrap_or_default();
-            match number(field, comma) {
-                _ if field.is_empty() => Err(format!("the {what} is missing")),
-                None => Err(format!("'{}' is no number", short_of(field))),
-                Some(x) if x.is_nan() => Err(format!("the {what} is NaN")),
-                Some(x) if x.abs() > LARGEST && !(x.is_infinite() && k == signal) => {
-                    Err(format!("the {what} is {x:e}, which is beyond {LARGEST:e}"))
-                }
-                Some(x) => Ok(x),
-            }
-        };
-        let value = get("value", signal)?;
-        let time = match self.time_of(signal) {
-            Time::Column(k, unit) => unit.seconds(get("time", k)?),
-            Time::Steps { column: Some((k, first)), start, step } => match start {
-                Some(start) => start + step * (get("time", k)? - first),
-                None => step * get("time", k)?,
-            },
-            Time::Steps { column: None, start, step } => start.unwrap_or(0.0) + step * row as f64,
-        };
-        Ok((time, value))
+/// The number in a field, or what is wrong with it.
+pub fn sound(what: &str, field: &str, number: Option<f64>) -> Result<f64, String> {
+    match number {
+        _ if field.is_empty() => Err(format!("the {what} is missing")),
+        None => Err(format!("'{}' is no number", short_of(field))),
+        Some(x) if x.is_finite() && x.abs() <= LARGEST => Ok(x),
+        Some(x) => Err(format!("the {what} is {x:e}, and no finite number up to {LARGEST:e}")),
     }
+}
+
+/// The time of a row in seconds, or what is wrong with it.
+pub fn time_of(table: &Table, time: Time, row: usize, fields: &[&str]) -> Result<f64, String> {
+    let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+    let number = |k: usize| sound("time", field(k), table.form.number(field(k)));
+    Ok(match time {
+        Time::Column(k, unit) => unit.seconds(number(k)?),
+        Time::Day(k, first) => sound("time", field(k), time_of_day(field(k)))? - first,
+        Time::Steps { column: Some((k, first)), start, step } => match start {
+            Some(start) => start + step * (number(k)? - first),
+            None => step * number(k)?,
+        },
+        Time::Steps { column: None, start, step } => start.unwrap_or(0.0) + step * row as f64,
+    })
 }
 
 /// What the columns of a table hold, by their names and their numbers.
@@ -154,28 +150,42 @@ impl Columns<'_> {
         self.table.name(k).map_or((k + 1).to_string(), |name| format!("{}, \"{name}\"", k + 1))
     }
 
-    fn unit(&self, k: usize) -> Said {
-        let [name, below] = self.table.labels(k).map(unit_in);
-        if below == Said::Nothing { name } else { below }
-    }
-
-    fn is_time(&self, k: usize) -> bool {
-        is_time(self.table.labels(k)[0])
+    fn said(&self, k: usize) -> Said {
+        match said(self.table.label(k)) {
+            Said::Unit(unit) => Said::Unit(unit),
+            _ if self.table.is_clock(k) => Said::Unit(Unit::Second),
+            other => other,
+        }
     }
 
     fn counts(&self, k: usize) -> bool {
-        let is_named = self.table.labels(k).iter().any(|label| is_count(label));
-        let has_unit = matches!(self.unit(k), Said::Unit(_));
-        !has_unit && (is_counter(&self.table.first[k]) || is_named && runs(&self.table.spread[k]))
+        let said = self.said(k);
+        !matches!(said, Said::Unit(_)) && (is_counter(&self.table.first[k]) || said == Said::Count && self.runs(k))
     }
 
     fn runs(&self, k: usize) -> bool {
         runs(&self.table.spread[k])
     }
 
+    /// Of the columns of times with a unit, the first.
+    fn timed(&self) -> Option<usize> {
+        let is_one = |k: &usize| matches!(self.said(*k), Said::Unit(_)) && self.runs(*k);
+        self.table.columns.iter().copied().find(is_one)
+    }
+
+    /// What a rate that is asked for contradicts: another one that the file's times have.
+    fn against(&self, step: f64) -> Option<String> {
+        let k = self.timed()?;
+        let Said::Unit(unit) = self.said(k) else { return None };
+        let steps = self.table.first[k].windows(2).map(|pair| unit.seconds(pair[1] - pair[0]).abs()).collect();
+        let usual = median(steps);
+        ((usual / step - 1.0).abs() > 0.02)
+            .then(|| format!("column {} has steps of {}", self.name(k), Unit::fit(usual).show(usual)))
+    }
+
     /// The sync's column, which is not asked for as another.
     fn sync(&self, column: &Column, asked: &[usize]) -> Result<usize, Refusal> {
-        let named = (0..self.table.width).find(|k| self.table.labels(*k)[0] == column.to_string());
+        let named = (0..self.table.width).find(|k| self.table.is_named(*k, &column.to_string()));
         let reason = match (self.table.column(column), named) {
             (Err(refusal), _) => {
                 format!("{refusal}; a time has a unit, as in 1.5ms, and a file has to be there")
@@ -198,39 +208,31 @@ impl Columns<'_> {
         if !asked.is_empty() {
             return Ok(asked.to_vec());
         }
-        let columns = &self.table.columns;
-        let is_other = |k: &usize| Some(*k) != time && Some(*k) != sync;
-        let others: Vec<usize> = columns.iter().copied().filter(is_other).collect();
+        let is_other = |k: &usize| Some(*k) != time && Some(*k) != sync && !self.table.is_clock(*k);
+        let others: Vec<usize> = self.table.columns.iter().copied().filter(is_other).collect();
         if let (Some(sync), true) = (sync, others.is_empty()) {
             let reason = format!("beside column {} no other holds a signal", self.name(sync));
             return Err(Refusal::NoDelay { reason });
         }
-        let is_time = |k: usize| self.is_time(k) || matches!(self.unit(k), Said::Unit(_));
+        let is_time = |k: usize| matches!(self.said(k), Said::Time | Said::Unit(_));
         let is_signal = |k: &usize| !(self.counts(*k) || is_time(*k) && self.runs(*k));
         let signals: Vec<usize> = others.iter().copied().filter(is_signal).collect();
         let found = [signals, others].into_iter().find(|found| !found.is_empty());
-        Ok(found.unwrap_or_else(|| columns.clone()))
+        Ok(found.unwrap_or_else(|| self.table.columns.clone()))
     }
 
     /// The time's column, if there is one: by its name, and best with a unit; or the first that runs on, if no rate is
     /// known.
     fn time(&self, asked: &[usize], settings: &Settings, unit: Option<Unit>) -> Result<Option<usize>, Refusal> {
+        let columns: Vec<usize> = self.table.columns.iter().copied().filter(|k| !asked.contains(k)).collect();
         if self.table.columns.len() < 2 {
             return Ok(None);
         }
-        let columns: Vec<usize> = self.table.columns.iter().copied().filter(|k| !asked.contains(k)).collect();
-        let running: Vec<usize> = columns.iter().copied().filter(|k| self.runs(*k)).collect();
-        let find = |is: &dyn Fn(&usize) -> bool| running.iter().copied().find(is);
-        let has_unit = |k: &usize| matches!(self.unit(*k), Said::Unit(_));
-        let rules: [&dyn Fn(&usize) -> bool; 5] = [
-            &|k| self.is_time(*k) && has_unit(k),
-            &|k| self.is_time(*k),
-            &has_unit,
-            &|k| self.unit(*k) == Said::Unclear,
-            &|k| is_axis(self.table.labels(*k)[0]),
-        ];
-        if let Some(time) = rules.iter().find_map(|is| find(is)) {
-            return Ok(Some(time));
+        let find = |is: &dyn Fn(&usize) -> bool| columns.iter().copied().find(|k| self.runs(*k) && is(k));
+        let named =
+            find(&|k| matches!(self.said(*k), Said::Unit(_))).or_else(|| find(&|k| self.said(*k) == Said::Time));
+        if named.is_some() {
+            return Ok(named);
         }
         let first = |k: usize| &self.table.first[k];
         if let Some((_, step)) = settings.step()? {
@@ -239,83 +241,92 @@ impl Columns<'_> {
         }
         // Of the first columns one alone can be the time, after those that count.
         let counts = |k: &usize| self.counts(*k) && unit.is_none();
-        let time = columns.iter().copied().find(|k| !counts(k)).filter(|k| running.contains(k));
+        let time = columns.iter().copied().find(|k| !counts(k)).filter(|k| self.runs(*k));
         Ok(time.or_else(|| find(&counts)))
     }
 
     /// How a row's time is known, and who tells that.
     fn clock(&self, time: Option<usize>, settings: &Settings, asked: Option<Unit>) -> Result<(Time, Told), Refusal> {
+        if let (Some(words), None) = (&settings.no_time, asked) {
+            return Err(Refusal::UnclearUnit { name: words.clone() });
+        }
         let steps = |column: Option<usize>, words, step| {
             let column = column.map(|k| (k, self.table.first[k][0]));
-            // What counts from below 0 tells its zero.
-            let counted = column.map(|(_, first)| first * step).filter(|first| *first < 0.0);
-            let start = settings.start(step).or(counted);
-            Ok((Time::Steps { column, start, step }, Told::Header(words)))
+            Ok((Time::Steps { column, start: settings.start, step }, Told::Header(words)))
         };
         let Some(k) = time else {
             let (words, step) = settings.step()?.ok_or_else(|| self.no_times(settings))?;
             return steps(None, words, step);
         };
-        match (asked, self.unit(k)) {
+        let first = &self.table.first[k];
+        if self.table.is_clock(k) {
+            return Ok((Time::Day(k, first[0]), Told::Format));
+        }
+        // What a rate says of the steps of these times.
+        let by_rate =
+            || settings.step().ok().flatten().and_then(|(words, step)| Some((words, unit_of_steps(first, step)?)));
+        match (asked, self.said(k)) {
             (Some(unit), Said::Unit(named)) if named != unit => {
-                return Ok((Time::Column(k, unit), Told::Against(named)));
+                return Ok((Time::Column(k, unit), Told::Against(format!("its name says {}", named.name()))));
             }
             (Some(unit), _) => return Ok((Time::Column(k, unit), Told::Asked)),
             (None, Said::Unit(unit)) => {
                 // A rate that fits the steps in another unit says that one of the two is wrong.
-                let against =
-                    settings.step().ok().flatten().filter(|(_, step)| {
-                        unit_of_steps(&self.table.first[k], *step).is_some_and(|other| other != unit)
-                    });
-                return match against {
+                return match by_rate().filter(|(_, other)| *other != unit) {
                     Some((second, _)) => Err(Refusal::TwoRates { first: self.name(k), second }),
                     None => Ok((Time::Column(k, unit), Told::Name)),
                 };
             }
-            (None, Said::Unclear) => {
-                let [name, below] = self.table.labels(k);
-                let name = if unit_in(name) == Said::Unclear { name } else { below };
-                return Err(Refusal::UnclearUnit { name: short_of(name) });
-            }
-            (None, Said::Nothing) => (),
+            _ => (),
         }
         if let Some((words, step)) = settings.step()? {
             if self.counts(k) {
                 // The numbers of samples that were left out count as well; those of a timer are no samples.
-                let counter = is_counter(&self.table.first[k]).then_some(k);
-                return steps(counter, words, step);
+                return steps(is_counter(first).then_some(k), words, step);
             }
-            if let Some(unit) = unit_of_steps(&self.table.first[k], step) {
-                return match settings.unit.clone().filter(|(_, other)| *other != unit) {
-                    Some((first, _)) => Err(Refusal::TwoRates { first, second: words }),
-                    None => Ok((Time::Column(k, unit), Told::Header(words))),
-                };
+            if let Some((words, unit)) = by_rate() {
+                return Ok((Time::Column(k, unit), Told::Header(words)));
             }
-        }
-        if let (Some((words, unit)), false) = (settings.unit.clone(), self.counts(k)) {
-            return Ok((Time::Column(k, unit), Told::Header(words)));
         }
         // Whole numbers with more than one between them are a timer's, and that hardly counts seconds.
-        let first = &self.table.first[k];
         let is_timer =
             first.iter().all(|t| t.fract() == 0.0) && !first.windows(2).any(|pair| (pair[1] - pair[0]).abs() == 1.0);
-        if self.counts(k) || is_timer {
-            let quoted = settings.unread.clone();
-            return Err(Refusal::Counter { name: self.name(k), quoted });
+        let (label, counts) = (self.table.label(k), self.counts(k) || is_timer);
+        if self.said(k) == Said::Other && (!counts || label.contains(['(', '['])) {
+            return Err(Refusal::UnclearUnit { name: short_of(label) });
         }
-        Ok((Time::Column(k, Unit::Second), Told::Assumed))
+        if counts {
+            return Err(Refusal::Counter { name: self.name(k), quoted: settings.unread.clone() });
+        }
+        if let Some(text) = self.table.number_and_word(k) {
+            return Err(Refusal::NoPlainTimes { text });
+        }
+        match &settings.unit {
+            Some((words, Unit::Second)) => Ok((Time::Column(k, Unit::Second), Told::Header(words.clone()))),
+            Some((words, _)) => Err(Refusal::UnclearUnit { name: words.clone() }),
+            None => Ok((Time::Column(k, Unit::Second), Told::Assumed)),
+        }
     }
 
     fn no_times(&self, settings: &Settings) -> Refusal {
+        let text = self.table.text_beside();
+        // A number with something else, or a date: a rate would not be what it says.
+        if let Some(text) = text.clone().filter(|text| text.starts_with(|c: char| c.is_ascii_digit())) {
+            return Refusal::NoPlainTimes { text };
+        }
         let columns = self.table.told(self.table.columns.iter().copied());
-        let (text, quoted) = (self.table.text_beside(), settings.unread.clone());
-        Refusal::NoTimes { columns, text, quoted }
+        Refusal::NoTimes { columns, text, quoted: settings.unread.clone() }
     }
 
-    /// The columns of times of the same name.
-    fn named_alike(&self, time: usize) -> Vec<usize> {
-        let label = self.table.labels(time);
-        let is_alike = |k: &usize| self.is_time(*k) && self.table.labels(*k) == label;
-        self.table.columns.iter().copied().filter(is_alike).collect()
+    /// # Errors
+    /// Other times than these, of the same name: a table of several recordings.
+    fn only_times(&self, time: usize) -> Result<(), Refusal> {
+        let of = |k: usize| (self.table.label(k), &self.table.spread[k]);
+        let is_other =
+            |k: &usize| *k != time && !of(*k).0.is_empty() && of(*k).0 == of(time).0 && of(*k).1 != of(time).1;
+        match self.table.columns.iter().copied().find(is_other).filter(|k| self.runs(*k)) {
+            Some(other) => Err(Refusal::TwoTimes { first: self.name(time), second: self.name(other) }),
+            None => Ok(()),
+        }
     }
 }

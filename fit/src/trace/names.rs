@@ -1,127 +1,156 @@
-//! What the name of a column says: is it the time, does it count, and in which unit.
+//! All names that instruments give to times, units and rates and that are read, in one table: each with who writes it,
+//! and a line of that. What is not here is asked for: the unit, the rate or the columns.
 
 use crate::unit::Unit;
 
-/// What a name says of the unit of time.
+/// What a name means: in the name of a column, or of a setting above the rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Said {
-    Nothing,
-    Unit(Unit),
-    /// A unit and something more, as `tenths of ms`, or one that is not read, as `min`.
-    Unclear,
+pub enum Means {
+    /// The column holds times.
+    Time,
+    /// It holds them in this unit.
+    In(Unit),
+    /// It counts rows.
+    Count,
+    /// It is a signal's unit, in a row of units.
+    Signal,
+    /// The setting is the time from one sample to the next, in seconds or with its own unit.
+    Step,
+    /// The samples in a second, with a unit.
+    Rate,
+    /// The first sample's time, in seconds or with its own unit.
+    Start,
+    /// The same, if it stands below the name.
+    StartBelow,
+    /// The unit of the screen's scale, and of times that have none of their own. Of no other setting.
+    ScaleUnit,
+    /// The unit of all times. Only seconds are read.
+    TimeUnit,
+    /// The columns' names follow it.
+    Names,
 }
 
-const UNITS: [(Unit, &str); 4] = [
-    (Unit::Second, "s sec second seconds secs sek sekunden"),
-    (Unit::Millisecond, "ms msec msecs millis millisec millisecond milliseconds"),
-    (Unit::Microsecond, "us µs μs \u{fffd}s usec usecs micros microsec microsecond microseconds"),
-    (Unit::Nanosecond, "ns nsec nsecs nanos nanosecond nanoseconds"),
+/// Name, meaning, who writes it, and a line of that.
+type Known = (&'static str, Means, &'static str, &'static str);
+
+use Means::{Count, In, Names, Rate, ScaleUnit, Signal, Start, StartBelow, Step, Time, TimeUnit};
+
+/// Names of columns by their words, of settings without blanks and marks.
+#[rustfmt::skip]
+pub const KNOWN: &[Known] = &[
+    ("time", Time, "Tektronix, LeCroy", "TIME,CH1"),
+    ("t", Time, "OpenHantek", "t / s,CH1 / V"),
+    ("x", Time, "Rigol DS1000Z", "X,CH1"),
+    ("axis", Time, "Keysight", "x-axis,1"),
+    ("in", Time, "Rohde & Schwarz RTB", "in s,CH1 in V"),
+    ("s", In(Unit::Second), "Saleae", "Time [s],Channel 0"),
+    ("sec", In(Unit::Second), "data loggers", "Time (sec),V"),
+    ("second", In(Unit::Second), "Rigol, Siglent, Keysight", "Second,Volt"),
+    ("seconds", In(Unit::Second), "data loggers, sketches", "time_seconds,V"),
+    ("ms", In(Unit::Millisecond), "PicoScope", "(ms),(V)"),
+    ("msec", In(Unit::Millisecond), "AcqKnowledge", "msec,CH1"),
+    ("millis", In(Unit::Millisecond), "Arduino", "millis,adc"),
+    ("us", In(Unit::Microsecond), "PicoScope 6", "(us),(V)"),
+    ("µs", In(Unit::Microsecond), "PicoScope 7", "(µs),(mV)"),
+    ("micros", In(Unit::Microsecond), "Arduino", "micros,adc"),
+    ("ns", In(Unit::Nanosecond), "PicoScope", "(ns),(V)"),
+    ("sequence", Count, "Rigol DS1000Z", "Sequence,VOLT"),
+    ("v", Signal, "Rohde & Schwarz RTM, Fluke", "s,V"),
+    ("volt", Signal, "Rigol, Siglent, Keysight", "second,Volt"),
+    ("ampere", Signal, "Keysight", "second,Ampere"),
+    ("tracename", Names, "Yokogawa", "\"TraceName\",\"CH1\",\"CH2\""),
+    ("sampleinterval", Step, "Tektronix, Siglent", "Sample Interval,1.0e-05"),
+    ("samplingperiod", Step, "GW Instek", "Sampling Period,1.0E-05"),
+    ("increment", Step, "Rigol DS1000Z", "X,CH1,Start,Increment\nSequence,VOLT,-6.0e-03,1.0e-05"),
+    ("hresolution", Step, "Yokogawa", "\"HResolution\",1.0E-05"),
+    ("deltax", Step, "LabVIEW", "Delta_X,1.0E-5"),
+    ("samplerate", Rate, "Audacity, sigrok, WaveForms", "Sample Rate: 100000 Hz. Sample values on linear scale."),
+    ("start", StartBelow, "Rigol DS1000Z", "X,CH1,Start,Increment\nSequence,VOLT,-6.0e-03,1.0e-05"),
+    ("hoffset", Start, "Yokogawa", "\"HResolution\",1.0E-05\n\"HOffset\",-6.0E-03"),
+    ("horizontalunits", ScaleUnit, "Tektronix, Siglent, GW Instek", "Horizontal Units,s\nTIME,CH1"),
+    ("hunit", TimeUnit, "Yokogawa", "\"HResolution\",1.0E-05\n\"HUnit\",\"s\""),
+    ("xunits", TimeUnit, "Keysight Infiniium", "XUnits:,Second\nSample Interval,1.0e-05"),
 ];
-/// Units of time that are not read.
-const OTHER_UNITS: &str = "min mins minutes h hr hours d days ps picoseconds div";
-/// What makes another number of a unit.
-const FACTORS: &str = "ten tens tenth tenths hundred hundreds hundredth hundredths thousand thousandths half halves \
-     quarter quarters deci centi per div sample";
-const TIMES: &str =
-    "time times t timestamp elapsed timer zeit temps tiempo tempo tid tijd czas aika millis micros seconds";
-/// These may stand beside one of the former.
-const BESIDE_TIMES: &str = "stamp since start trigger boot fractional axis x rel relative abs absolute in of the";
-const COUNTS: &str =
-    "sample samples index idx n no nr num number point points sequence seq i count counter row tick ticks";
-const SIGNALS: &str = "v mv uv µv kv volt volts mvolt mvolts millivolts a ma ua amp amps ampere w lx lux % db dbv code \
-     adc raw value logic sequence ampl unknown";
 
-/// Is the word one of the list's?
-pub fn has(list: &str, word: &str) -> bool {
-    list.split(' ').any(|known| known == word)
+fn meaning(name: &str) -> Option<Means> {
+    KNOWN.iter().find(|(known, ..)| *known == name).map(|(_, means, ..)| *means)
 }
 
-/// The unit that a word is the name of.
-pub fn unit_of(word: &str) -> Option<Unit> {
-    UNITS.iter().find(|(_, names)| has(names, word)).map(|(unit, _)| *unit)
-}
-
+/// A text's words in lower case, with one letter for micro.
 pub fn words(text: &str) -> Vec<String> {
-    let is_part = |c: char| c.is_alphanumeric() || c == char::REPLACEMENT_CHARACTER;
-    let words = text.split(|c| !is_part(c)).filter(|word| !word.is_empty());
-    words.map(str::to_lowercase).collect()
+    let text = text.to_lowercase().replace(['μ', char::REPLACEMENT_CHARACTER], "µ");
+    text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(String::from).collect()
 }
 
-/// A name's words outside of its brackets, and what stands in these.
-fn parts(name: &str) -> (Vec<String>, Vec<String>) {
-    let name = name.split(' ').filter(|word| !is_path(word)).collect::<Vec<_>>().join(" ").to_lowercase();
-    let parts = name.split([')', ']', '}']).map(|part| part.split_once(['(', '[', '{']).unwrap_or((part, "")));
-    let (outside, inside): (Vec<&str>, Vec<&str>) = parts.unzip();
-    (words(&outside.join(" ")), inside.iter().map(|text| text.trim().into()).collect())
-}
-
-/// Is it a file's name behind folders, whose letters are no units?
-fn is_path(word: &str) -> bool {
-    let mut parts = word.split(['/', '\\']);
-    parts.next_back().is_some_and(|last| parts.next().is_some() && (last.contains('.') || parts.next().is_some()))
-}
-
-fn is_number(word: &str) -> bool {
-    word.starts_with(|c: char| c.is_ascii_digit())
-}
-
-/// The unit of time in the name of a column: alone in brackets, or a word of the name; with a factor it is unclear.
-pub fn unit_in(name: &str) -> Said {
-    let (outside, inside) = parts(name);
-    // `10us` is no word for a unit, and `x10` makes another one of it.
-    let bare = |word: &str| unit_of(word.trim_start_matches(|c: char| c.is_ascii_digit()));
-    let is_times = |word: &String| word.strip_prefix('x').is_some_and(is_number);
-    // `TimeMs` and `tms`, but not `ts`, which is a time stamp.
-    let short = |word: &String| {
-        let unit = word.strip_prefix("time").or_else(|| word.strip_prefix('t'))?;
-        unit_of(unit).filter(|_| unit.len() > 1)
-    };
-    let in_brackets = inside.iter().find_map(|text| unit_of(text));
-    let in_words = outside.iter().rev().find_map(|word| unit_of(word).or_else(|| short(word)));
-    let other = |word: &String| bare(word).is_some() || has(OTHER_UNITS, word);
-    let is_factor = |word: &String| has(FACTORS, word) || is_number(word);
-    let multiplied = name.contains(['*', '×']) || outside.iter().any(is_times);
-    let is_scale = outside.iter().any(|word| has("div per", word));
-    // In a sentence a unit is another thing's.
-    let is_sentence = name.trim().contains(' ') && !outside.iter().all(|word| may_name_time(word));
-    match in_brackets.or(in_words) {
-        Some(_) if in_brackets.is_some() && (multiplied || is_scale) => Said::Unclear,
-        Some(unit) if in_brackets.is_some() => Said::Unit(unit),
-        _ if inside.iter().any(|text| words(text).iter().any(other)) => Said::Unclear,
-        _ if is_sentence || outside.iter().any(|word| has(SIGNALS, word)) => Said::Nothing,
-        Some(_) if multiplied || outside.iter().any(is_factor) => Said::Unclear,
-        Some(unit) => Said::Unit(unit),
-        None if outside.iter().any(other) => Said::Unclear,
-        None => Said::Nothing,
+/// The unit of time that a word is the name of.
+pub fn unit_of(word: &str) -> Option<Unit> {
+    match words(word).as_slice() {
+        [word] => match meaning(word)? {
+            In(unit) => Some(unit),
+            _ => None,
+        },
+        _ => None,
     }
 }
 
-/// May the word stand in the name of a time?
-fn may_name_time(word: &str) -> bool {
-    let is_listed = [TIMES, BESIDE_TIMES, FACTORS, OTHER_UNITS].iter().any(|list| has(list, word));
-    is_listed || unit_of(word).is_some() || is_number(word) || word.strip_prefix('x').is_some_and(is_number)
+/// What a setting of this name tells.
+pub fn setting(name: &str) -> Option<Means> {
+    let is_one = |means: &Means| matches!(means, Step | Rate | Start | StartBelow | ScaleUnit | TimeUnit | Names);
+    meaning(&words(name).concat()).filter(is_one)
 }
 
-/// Is it the name of a time, and of nothing else, as an exposure's time would be?
-pub fn is_time(name: &str) -> bool {
-    let (words, _) = parts(name);
-    words.iter().any(|word| has(TIMES, word)) && words.iter().all(|word| may_name_time(word))
+/// What the name of a column says of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Said {
+    Nothing,
+    /// It holds times, in a unit that is not told.
+    Time,
+    Unit(Unit),
+    Count,
+    /// It holds something else, or times in a unit that is not read, as `min` or `s/div`.
+    Other,
 }
 
-/// Is it the name of a horizontal axis?
-pub fn is_axis(name: &str) -> bool {
-    let (words, _) = parts(name);
-    words.first().is_some_and(|word| word == "x") && words[1..].iter().all(|word| has("axis value values data", word))
+/// What stands in the last brackets of a name, and what before.
+fn parts(name: &str) -> (&str, Option<&str>) {
+    let name = name.trim();
+    let inside = name.strip_suffix([')', ']', '}']).and_then(|rest| Some((rest, rest.rfind(['(', '[', '{'])?)));
+    match inside.map(|(rest, at)| (&rest[..at], rest[at + 1..].trim())) {
+        Some((before, inside)) if inside.contains(|c: char| !c.is_ascii_digit()) => (before, Some(inside)),
+        _ => (name, None),
+    }
 }
 
-/// Is it the name of a number of samples?
-pub fn is_count(name: &str) -> bool {
-    let (words, _) = parts(name);
-    !words.is_empty() && words.iter().all(|word| has(COUNTS, word))
+/// What the name of a column says: by a unit in brackets, or where each of its words is a time's or a unit.
+pub fn said(name: &str) -> Said {
+    let (name, inside) = parts(name);
+    let all = words(name);
+    if let Some(unit) = inside {
+        // `x10` or `per` makes another unit of it.
+        let is_factor = |word: &String| {
+            word == "per" || word == "div" || word.strip_prefix('x').is_some_and(|x| x.starts_with(char::is_numeric))
+        };
+        let is_plain = !name.contains(['*', '×', '/']) && !all.iter().any(is_factor);
+        return unit_of(unit).filter(|_| is_plain).map_or(Said::Other, Said::Unit);
+    }
+    if all.is_empty() {
+        return if name.is_empty() { Said::Nothing } else { Said::Other };
+    }
+    let mut said = Said::Time;
+    for word in &all {
+        match (meaning(word), said) {
+            (Some(Time), _) => (),
+            (Some(In(unit)), Said::Time) => said = Said::Unit(unit),
+            (Some(Count), _) if all.len() == 1 => said = Said::Count,
+            _ => return Said::Other,
+        }
+    }
+    said
 }
 
 /// Is it a unit alone, as in a row of units below the names?
 pub fn is_unit(field: &str) -> bool {
-    let field = field.trim().trim_matches(['(', ')', '[', ']', '{', '}']).trim().to_lowercase();
-    unit_of(&field).is_some() || has(SIGNALS, &field)
+    let (before, inside) = parts(field);
+    let is_known = || matches!(meaning(&words(field).concat()), Some(In(_) | Signal | Count));
+    before.is_empty() && inside.is_some() || is_known()
 }

@@ -1,79 +1,103 @@
-//! Fields, and the numbers that stand in them.
+//! Fields, and the numbers and times of day that stand in them.
 
 use std::iter::once;
 
-/// The fields of a line, without blanks and quotes around them. A quote that is never closed must not swallow the rest
-/// of the file: so quotes count only where a line has them in pairs.
-pub fn split(line: &str, delimiter: char) -> impl Iterator<Item = &str> {
-    let quotes = if delimiter == ',' { line.matches('"').count() } else { 0 };
-    let is_quoted = quotes > 0 && quotes.is_multiple_of(2);
-    let mut rest = Some(line.trim_end_matches(['\r', '\n']));
-    let fields = std::iter::from_fn(move || {
-        let line = rest?;
-        let from = match line.trim_start().strip_prefix('"').filter(|_| is_quoted) {
-            Some(inside) => line.len() - inside.len() + inside.find('"').unwrap_or(0),
-            None => 0,
-        };
-        let end = line[from..].find(delimiter).map(|k| from + k);
-        rest = end.map(|k| &line[k + delimiter.len_utf8()..]);
-        Some(&line[..end.unwrap_or(line.len())])
-    });
-    let blank = delimiter == ' ';
-    let fields = fields.map(|field| field.trim().trim_matches('"').trim());
-    fields.filter(move |field| !(blank && field.is_empty()))
+/// What parts a line's fields, and is the decimal mark a comma?
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Form {
+    pub delimiter: char,
+    pub comma: bool,
 }
 
-/// What parts thousands and nothing else: blanks that do not break (the last as another encoding's), and apostrophes.
-pub const THOUSANDS: [char; 5] = ['\u{a0}', '\u{202f}', char::REPLACEMENT_CHARACTER, '\'', '’'];
+impl Form {
+    /// All, the usual ones first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let both = |delimiter| [false, true].map(|comma| Self { delimiter, comma });
+        [',', ';', '\t', ' '].into_iter().flat_map(both)
+    }
 
-/// A number with a decimal point, or a decimal comma where that is said; NaN and infinities are numbers here. Below
-/// zero with either minus, or in an accountant's brackets; a sign may stand apart.
-pub fn number(field: &str, comma: bool) -> Option<f64> {
-    let with_point = (comma && field.contains(',')).then(|| field.replacen(',', ".", 1));
-    let field = with_point.as_deref().unwrap_or(field);
-    let other = || {
-        let brackets = field.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
-        let below = brackets.or_else(|| field.strip_prefix(['-', '\u{2212}', '\u{2013}']));
-        let size = below.unwrap_or(field.strip_prefix('+').unwrap_or(field)).trim_start();
-        let size = size.starts_with(|c: char| c.is_ascii_digit() || c == '.').then_some(size)?;
-        let is_parted = is_grouped(&size.replace(THOUSANDS, ","));
-        let joined = if is_parted { size.replace(THOUSANDS, "") } else { size.into() };
-        let size: f64 = joined.parse().ok()?;
-        Some(if below.is_some() { -size } else { size })
+    /// The fields of a line, without blanks and quotes around them. A quote that is never closed must not swallow the
+    /// rest of the file: so quotes count only where a line has them in pairs.
+    pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
+        let Self { delimiter, .. } = self;
+        let quotes = if delimiter == ',' { line.matches('"').count() } else { 0 };
+        let is_quoted = quotes > 0 && quotes.is_multiple_of(2);
+        let mut rest = Some(line.trim_end_matches(['\r', '\n']));
+        let fields = std::iter::from_fn(move || {
+            let line = rest?;
+            let from = match line.trim_start().strip_prefix('"').filter(|_| is_quoted) {
+                Some(inside) => line.len() - inside.len() + inside.find('"').unwrap_or(0),
+                None => 0,
+            };
+            let end = line[from..].find(delimiter).map(|k| from + k);
+            rest = end.map(|k| &line[k + delimiter.len_utf8()..]);
+            Some(&line[..end.unwrap_or(line.len())])
+        });
+        let fields = fields.map(|field| field.trim().trim_matches('"').trim());
+        fields.filter(move |field| !(delimiter == ' ' && field.is_empty()))
+    }
+
+    /// A number with this decimal mark and no other; NaN and infinities are numbers here.
+    pub fn number(self, field: &str) -> Option<f64> {
+        match field.find(',') {
+            None => field.parse().ok().filter(|_| !(self.comma && field.contains('.'))),
+            Some(_) if !self.comma || field.contains('.') => None,
+            Some(_) => field.replacen(',', ".", 1).parse().ok(),
+        }
+    }
+
+    /// A number, or a time of day in seconds.
+    pub fn cell(self, field: &str) -> Option<f64> {
+        self.number(field).or_else(|| time_of_day(field))
+    }
+
+    /// The share of the fields in these lines that are numbers or times of day; no instrument writes a whole number as
+    /// `05`, so that is the half of a decimal.
+    pub fn fits(self, lines: &[&str]) -> f64 {
+        let is_half =
+            |field: &str| field.len() > 1 && field.starts_with('0') && field.bytes().all(|b| b.is_ascii_digit());
+        let (mut all, mut numbers) = (0.0, 0.0);
+        for field in lines.iter().flat_map(|line| self.split(line)).filter(|field| !field.is_empty()) {
+            all += 1.0;
+            numbers += f64::from(u8::from(self.cell(field).is_some() && !is_half(field)));
+        }
+        numbers / f64::max(all, 1.0)
+    }
+}
+
+/// The seconds since midnight of a time of day, as `14:06:09.25` or `2026-01-30T14:06:09.25Z`. Which day it is does not
+/// count: so far from 0, `f64` would not hold a nanosecond.
+pub fn time_of_day(field: &str) -> Option<f64> {
+    let is_date = |text: &str| text.starts_with(|c: char| c.is_ascii_digit()) && !text.contains([':', ' ']);
+    let clock = match field.rsplit_once(['T', ' ']) {
+        Some((date, clock)) => Some(clock).filter(|_| is_date(date))?,
+        None => field,
     };
-    field.parse().ok().or_else(other).or_else(|| overload(field))
+    let mut parts = clock[..clock.find(['+', '-', 'Z']).unwrap_or(clock.len())].split(':');
+    let mut whole = |end: u8| parts.next()?.parse().ok().filter(|part: &u8| *part < end);
+    let (hours, minutes) = (whole(24)?, whole(60)?);
+    let seconds = parts.next().filter(|text| text.starts_with(|c: char| c.is_ascii_digit()))?;
+    let seconds: f64 = seconds.replacen(',', ".", 1).parse().ok().filter(|seconds| *seconds < 61.0)?;
+    parts.next().is_none().then(|| 60.0 * (60.0 * f64::from(hours) + f64::from(minutes)) + seconds)
 }
 
-/// The signs by which an instrument says that a signal is too large for it.
-fn overload(field: &str) -> Option<f64> {
-    let (sign, size) = match field.strip_prefix('-') {
-        Some(size) => (-1.0, size),
-        None => (1.0, field.strip_prefix('+').unwrap_or(field)),
-    };
-    let is_sign =
-        ["∞", "1.#inf", "1.#inf00", "ol", "ovl", "overload", "overflow"].contains(&size.to_lowercase().as_str());
-    is_sign.then_some(sign * f64::INFINITY)
+/// In seconds.
+const DAY: f64 = 86_400.0;
+
+/// A time of day counted on from the last one: if it runs back by half a day, it is the next day's.
+pub fn counted_on(time: f64, last: f64) -> f64 {
+    let days = ((last - time) / DAY).max(0.0).round();
+    time + DAY * if days.is_finite() { days } else { 0.0 }
 }
 
-/// Is it a number with a decimal comma?
-pub fn is_decimal(field: &str) -> bool {
-    let is_part = |(_, part): (&str, &str)| part.starts_with(|c: char| c.is_ascii_digit());
-    field.split_once(',').is_some_and(is_part) && !field.contains('.') && number(field, true).is_some()
-}
-
-/// Is it a number whose commas may part its thousands: `1,234` or `12,345,678.9`?
-pub fn is_grouped(field: &str) -> bool {
-    let whole = field.trim_start_matches(['-', '+']);
-    let whole = whole.split_once('.').map_or(whole, |(whole, _)| whole);
-    let mut groups = whole.split(',');
+/// Is it a number whose marks may part its thousands: `1,234` or `12,345,678`?
+pub fn is_grouped(field: &str, mark: char) -> bool {
+    let mut groups = field.trim_start_matches(['-', '+']).split(mark);
     let digits = |group: &str| group.bytes().all(|b| b.is_ascii_digit());
     let first = groups.next().unwrap_or_default();
     let mut more = groups.peekable();
-    (1..=3).contains(&first.len())
-        && digits(first)
-        && !first.starts_with('0')
-        && more.peek().is_some()
-        && more.all(|group| group.len() == 3 && digits(group))
+    let is_first = (1..=3).contains(&first.len()) && digits(first) && !first.starts_with('0');
+    is_first && more.peek().is_some() && more.all(|group| group.len() == 3 && digits(group))
 }
 
 /// As much of a field as a message can hold.

@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::bytes::decode;
-use super::numbers::split;
 use super::table::Table;
 use super::told::Refusal;
 use super::wav;
@@ -30,7 +29,7 @@ pub fn preview(bytes: &[u8], rows: usize) -> Result<Preview, Refusal> {
     let names: Vec<_> = (0..table.width).map(|column| table.name(column)).collect();
     // Of a field, what a narrow column can show.
     let field = |field: &str| field.chars().take(24).collect();
-    let row = |(line, row)| (line, split(row, table.delimiter).take(names.len()).map(field).collect());
+    let row = |(line, row)| (line, table.form.split(row).take(names.len()).map(field).collect());
     let rows = table.rows().take(rows).map(row).collect();
     Ok(Preview { names, rows })
 }

@@ -3,12 +3,13 @@
 //! What oscilloscopes, logic analysers and shutter testers write differs in the delimiter, the decimal mark and what
 //! stands above the numbers; all of that is read off the file itself.
 
+use std::mem::take;
+
 use super::asked::Options;
 use super::bytes::decode;
-use super::layout::{Layout, Time};
-use super::numbers::{number, short_of, split};
+use super::layout::{Layout, Time, sound, time_of};
+use super::numbers::{counted_on, short_of};
 use super::reading::{Recording, Samples, Told, shown};
-use super::samples::range;
 use super::select::light_among;
 use super::table::Table;
 use super::times::{Sample, lists_changes, ordered, staying};
@@ -33,11 +34,8 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     if layout.told == Told::Assumed {
         warnings.push(Warning::UnitAssumed);
     }
-    let time = match layout.time {
-        Time::Column(column, _) => Some(column),
-        Time::Steps { .. } => None,
-    };
-    let changes = time.is_some_and(|time| lists_changes(&table, time));
+    let time = layout.time.column();
+    let changes = time.is_some_and(|time| options.rate.is_none() && lists_changes(&table, time));
     if changes {
         warnings.push(Warning::Changes);
     }
@@ -77,23 +75,25 @@ fn samples(
     let mut columns: Vec<Column> = signals.iter().map(|_| Column::default()).collect();
     let by_rows = matches!(layout.time, Time::Steps { column: None, .. });
     let (mut fields, mut rows) = (Vec::new(), 0);
+    let mut last = f64::NEG_INFINITY;
     let mut between: Option<(u64, &str)> = None;
     for (line, row) in table.lines() {
         fields.clear();
-        fields.extend(split(row, table.delimiter));
+        fields.extend(table.form.split(row));
         let is_remark = row.starts_with('#');
-        let is_word = row.starts_with(char::is_alphabetic) && number(fields[0], table.decimal_comma).is_none();
+        let is_word = row.starts_with(char::is_alphabetic) && table.form.number(fields[0]).is_none();
         let mut is_read = false;
-        for (signal, column) in signals.iter().zip(&mut columns).filter(|_| !is_remark) {
-            match layout.sample(rows, &fields, *signal, table.decimal_comma) {
-                Ok((time, value)) => {
-                    is_read = true;
-                    column.samples.push(Sample { time, value, line });
-                }
-                Err(reason) => {
-                    column.broken += 1;
-                    column.first.get_or_insert((line, reason));
-                }
+        if !is_remark {
+            let mut time = time_of(table, layout.time, rows, &fields);
+            if let (Time::Day(..), Ok(time)) = (layout.time, &mut time) {
+                *time = counted_on(*time, last);
+                last = *time;
+            }
+            for (signal, column) in signals.iter().zip(&mut columns) {
+                let field = fields.get(*signal).copied().unwrap_or_default();
+                let value = time.clone().and_then(|time| Ok((time, sound("value", field, table.form.number(field))?)));
+                is_read |= value.is_ok();
+                column.add(line, field, value);
             }
         }
         // Where the rows count, what parts them parts recordings; elsewhere other names do.
@@ -119,37 +119,44 @@ struct Column {
     broken: usize,
     /// The first broken row, and what is wrong with it.
     first: Option<(u64, String)>,
+    /// Empty fields since the last sample, and the first one's line: at an end of the column they are no broken rows.
+    empty: (usize, u64),
 }
 
 impl Column {
+    /// Takes a row's time and value, or what is wrong with them.
+    fn add(&mut self, line: u64, field: &str, row: Result<(f64, f64), String>) {
+        match row {
+            Ok((time, value)) => {
+                if let (count @ 1.., first) = take(&mut self.empty) {
+                    self.broken += count;
+                    self.first.get_or_insert((first, "the value is missing".into()));
+                }
+                self.samples.push(Sample { time, value, line });
+            }
+            Err(_) if field.is_empty() => {
+                let is_inside = !self.samples.is_empty();
+                self.empty =
+                    (self.empty.0 + usize::from(is_inside), if self.empty.0 == 0 { line } else { self.empty.1 });
+            }
+            Err(reason) => {
+                self.broken += 1;
+                self.first.get_or_insert((line, reason));
+            }
+        }
+    }
+
     fn read(mut self, taken: impl Fn(&mut Vec<Sample>), reading: impl Fn() -> String) -> Result<Samples, Refusal> {
         let mut warnings = Vec::new();
         if let Some((line, reason)) = self.first {
             let (count, rows) = (self.broken, self.samples.len() + self.broken);
             if count as f64 > BROKEN * rows as f64 {
-                let reading = reading();
-                return Err(Refusal::BrokenRows { count, rows, line, reason, reading });
+                return Err(Refusal::BrokenRows { count, rows, line, reason, reading: reading() });
             }
             warnings.push(Warning::BrokenRows { count, line, reason });
         }
-        limit(&mut self.samples, &mut warnings);
         taken(&mut self.samples);
         let (trace, timing) = ordered(self.samples, &mut warnings);
         Ok(Samples { trace, timing, warnings })
     }
-}
-
-/// Puts the greatest or the least finite value in the place of what was too large for the instrument.
-fn limit(samples: &mut [Sample], warnings: &mut Vec<Warning>) {
-    let finite = samples.iter().map(|sample| sample.value).filter(|value| value.is_finite());
-    let (low, high) = range(finite);
-    let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
-    let mut beyond = samples.iter_mut().filter(|sample| sample.value.is_infinite()).peekable();
-    let Some(line) = beyond.peek().map(|sample| sample.line) else { return };
-    let mut count = 0;
-    for sample in beyond {
-        sample.value = if sample.value > 0.0 { high } else { low };
-        count += 1;
-    }
-    warnings.push(Warning::Overload { count, line });
 }

@@ -56,8 +56,8 @@ pub enum Told {
     Format,
     /// The options.
     Asked,
-    /// The options, against the column's name.
-    Against(Unit),
+    /// The options, against what the file says.
+    Against(String),
     /// Nobody.
     Assumed,
 }
@@ -114,7 +114,7 @@ impl Reading {
             Told::Header(line) => format!("by '{line}'"),
             Told::Format => "by the file".into(),
             Told::Asked => "as asked".into(),
-            Told::Against(unit) => format!("as asked, where its name says {}", unit.name()),
+            Told::Against(other) => format!("as asked, where {other}"),
             Told::Assumed => "assumed".into(),
         };
         let limit = |word: &str, time: Option<f64>| {

@@ -2,9 +2,8 @@
 //! level that stays in between.
 
 use super::samples::{Trace, median, range};
-use super::table::Table;
+use super::table::{JUDGED, Table};
 use super::told::Warning;
-use crate::unit::Unit;
 
 /// A row's sample.
 #[derive(Clone, Copy)]
@@ -23,6 +22,8 @@ pub struct Timing {
     pub error: f64,
     /// That of every length, as a share of it.
     pub pace: f64,
+    /// That of each time, whatever the others'.
+    pub each: f64,
 }
 
 impl Timing {
@@ -41,36 +42,6 @@ const OFTEN: usize = 20;
 /// A list of changes becomes so many samples at each end of a level that stays, and so many in the usual one.
 const STAYS: usize = 4000;
 const USUAL: f64 = 1000.0;
-
-/// A fraction of it begins anew, whether it began at 0 or not.
-const SECOND: f64 = 1.0;
-
-/// Goes on where a timer of so many bits, or a second's fraction, began anew at 0, if it is no segment that does.
-fn unwrap(rows: &mut [Sample]) {
-    let Some(step) = rows.windows(2).map(|pair| pair[1].time - pair[0].time).find(|step| *step > 0.0) else {
-        return;
-    };
-    let timers = [1u64 << 16, 1 << 32];
-    let timers = timers.iter().flat_map(|bits| Unit::ALL.map(|unit| unit.seconds(*bits as f64)));
-    for whole in timers.chain([SECOND]) {
-        let wraps = |pair: &[Sample]| {
-            pair[1].time < pair[0].time
-                && (0.0..5.0 * step).contains(&pair[1].time)
-                && (0.0..5.0 * step).contains(&(whole - pair[0].time))
-        };
-        let is_segment = rows[0].time < 5.0 * step && whole != SECOND;
-        if is_segment || !rows.windows(2).any(wraps) {
-            continue;
-        }
-        let (mut later, mut before) = (0.0, rows[0]);
-        for row in rows.iter_mut() {
-            later += if wraps(&[before, *row]) { whole } else { 0.0 };
-            before = *row;
-            row.time += later;
-        }
-        return;
-    }
-}
 
 /// Puts segments whose times begin anew one after the other, and tells where they are.
 fn apart(rows: &mut [Sample]) -> Vec<(f64, f64)> {
@@ -140,12 +111,28 @@ fn spread(rows: &mut [Sample]) -> Option<(f64, Timing)> {
     let groups = (changes.len() + 1) as f64;
     let pace = usual / (step * n as f64 * groups.sqrt());
     (0..n).for_each(|k| rows[k].time = at(k));
-    Some((usual, Timing { segments: Vec::new(), error: usual / 12f64.sqrt(), pace }))
+    Some((usual, Timing { error: usual / 12f64.sqrt(), pace, ..Timing::default() }))
+}
+
+/// Do rows come in blocks of evenly spaced samples with uneven pauses between them, as where a clock stamps each block?
+/// So many rows are a block, and the pauses tell the clock's standard error.
+fn stamped(rows: &[Sample]) -> Option<(usize, f64)> {
+    let steps: Vec<f64> = rows.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
+    let usual = if steps.len() > FEWEST { median(steps.clone()) } else { return None };
+    let breaks: Vec<usize> = (0..steps.len()).filter(|k| (steps[*k] / usual - 1.0).abs() > 0.1).collect();
+    let lengths: Vec<usize> = breaks.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let pauses = breaks.iter().map(|k| steps[*k]);
+    let n = breaks.len() as f64;
+    let mean = pauses.clone().sum::<f64>() / n;
+    let scatter = (pauses.map(|pause| (pause - mean).powi(2)).sum::<f64>() / n).sqrt();
+    let length = *lengths.first()?;
+    let alike = lengths.iter().filter(|other| **other == length).count();
+    let is_one = lengths.len() >= 4 && length >= 4 && 10 * alike >= 8 * lengths.len() && scatter > 0.1 * usual;
+    is_one.then_some((length, scatter / 2f64.sqrt()))
 }
 
 /// The samples in order, those of the same time averaged, and what is known of the times.
 pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Timing) {
-    unwrap(&mut rows);
     let mut timing = Timing { segments: apart(&mut rows), ..Timing::default() };
     if let Some(pair) = rows.windows(2).find(|pair| pair[1].time < pair[0].time) {
         warnings.push(Warning::Unsorted { line: pair[1].line });
@@ -153,6 +140,9 @@ pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Ti
     } else if let (Some((to, spread)), true) = (spread(&mut rows), timing.segments.is_empty()) {
         warnings.push(Warning::RoundedTimes { to });
         timing = spread;
+    } else if let Some((rows, error)) = stamped(&rows) {
+        warnings.push(Warning::StampedBlocks { rows, error });
+        timing.each = error;
     }
     let mut trace = Trace::default();
     let (mut same, mut again) = (1.0, None);
@@ -178,24 +168,28 @@ pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Ti
     (trace, timing)
 }
 
-/// Does nearly every row tell a change of a column that has two values, at uneven times?
-pub fn lists_changes(table: &Table, time: usize) -> bool {
-    let times = &table.first[time];
-    let others: Vec<&Vec<f64>> = table.columns.iter().filter(|k| **k != time).map(|k| &table.first[*k]).collect();
-    let is_switch = |values: &&Vec<f64>| {
-        let other = values.iter().find(|v| **v != values[0]);
-        values.len() == times.len() && values.iter().all(|v| *v == values[0] || Some(v) == other)
+/// Does nearly every row tell a change of columns that have two values, at uneven times? A value may be unknown, and
+/// the last row cut.
+pub fn lists_changes<'a>(table: &Table<'a>, time: usize) -> bool {
+    let others = || table.columns.iter().filter(|k| **k != time);
+    let rows: Vec<Vec<&'a str>> = table.rows().take(JUDGED).map(|(_, row)| table.form.split(row).collect()).collect();
+    let field = |row: &[&'a str], k: usize| row.get(k).copied().unwrap_or_default();
+    let is_switch = |k: &usize| {
+        let mut levels: Vec<f64> = rows.iter().filter_map(|row| table.form.number(field(row, *k))).collect();
+        levels.sort_by(f64::total_cmp);
+        levels.dedup();
+        levels.len() <= 2
     };
-    let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-    let (least, most) = range(steps());
-    let changes = |k: &usize| others.iter().any(|values| values[*k] != values[k - 1]);
-    let n = times.len();
+    let times = &table.first[time];
+    let (least, most) = range(times.windows(2).map(|pair| pair[1] - pair[0]));
+    let changes = |pair: &&[Vec<&'a str>]| others().any(|k| field(&pair[0], *k) != field(&pair[1], *k));
+    let n = rows.len();
     n > 2
-        && !others.is_empty()
-        && others.iter().all(is_switch)
+        && others().count() > 0
+        && others().all(is_switch)
         && least > 0.0
         && most > 1.5 * least
-        && 10 * ((1..n).filter(changes).count() + 1) >= 9 * n
+        && 10 * (rows.windows(2).filter(changes).count() + 1) >= 9 * n
 }
 
 /// A list of changes as samples of levels that stay in between: where they stay for long, at both ends alone.

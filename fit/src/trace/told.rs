@@ -36,20 +36,31 @@ pub enum Refusal {
         no_rate(.quoted)
     )]
     Counter { name: String, quoted: Option<String> },
+    /// A column runs on as times do, and its name or a setting says otherwise.
     #[error(
-        "'{name}' above the times is more than a unit, or one that is not read; give the unit, or the sampling rate in \
-         hertz"
+        "'{name}' above the numbers names no time in s, ms, us or ns, or leaves open which of them; if they are times, \
+         give their unit"
     )]
     UnclearUnit { name: String },
+    /// Beside the values stands what may be a time, but is no plain number.
+    #[error(
+        "'{text}' is no time that is read: write times as plain numbers, as in 9.25, or as hours, minutes and seconds \
+         of a day, as in 14:06:09.25"
+    )]
+    NoPlainTimes { text: String },
+    #[error("columns {first} and {second} hold different times; say which one, and the signal that belongs to it")]
+    TwoTimes { first: String, second: String },
     #[error("column {name} is asked for twice")]
     SameColumn { name: String },
     #[error("line {line}: '{text}' between the rows begins another recording; put each into a file of its own")]
     Blocks { line: u64, text: String },
     #[error("'{first}' and '{second}' above the numbers tell different rates; give the right one")]
     TwoRates { first: String, second: String },
-    /// A number with a comma, beside another with a point or alone.
-    #[error("{}", thousands(.number, .other))]
-    Thousands { number: String, other: String },
+    #[error(
+        "'{number}' has marks that may part thousands, or a whole number from its fraction; export without separators \
+         of thousands"
+    )]
+    Thousands { number: String },
     #[error("there is no column '{name}'; there are {there}")]
     NoColumn { name: String, there: String },
     #[error(
@@ -143,13 +154,6 @@ fn no_rate(quoted: &Option<String>) -> String {
     format!("and nothing above the rows gives a rate{}", quoted.as_ref().map_or(String::new(), but))
 }
 
-fn thousands(number: &str, other: &str) -> String {
-    if number == other {
-        return format!("'{number}' may be one and a fraction, or a thousand; export without separators of thousands");
-    }
-    format!("'{number}' has a comma and '{other}' a point, so one of them parts thousands; export without separators")
-}
-
 fn either(first: &bool, second: &bool, one: &str, other: &str) -> String {
     match (first, second) {
         (true, true) => format!("{one} and {other}"),
@@ -182,6 +186,14 @@ pub enum Warning {
         time(.to)
     )]
     RoundedTimes { to: f64 },
+    /// Blocks of so many rows are stamped by a clock with such a standard error.
+    #[error(
+        "the rows come in blocks of {rows} even samples with uneven pauses between them, so each block's time is as \
+         good as the clock that stamps it, some {}; the ± allow for it; record without pauses, or with each sample's \
+         own time",
+        time(.error)
+    )]
+    StampedBlocks { rows: usize, error: f64 },
     #[error(
         "the rows list the changes of a level of two values, as a logic analyser's do: it is taken to stay in \
          between, so no ramp shows"
@@ -191,13 +203,6 @@ pub enum Warning {
     UnitAssumed,
     #[error("two columns hold a pulse: {taken} is taken for the light, and {other} is not")]
     SecondSignal { taken: String, other: String, columns: String },
-    #[error(
-        "line {line}: the value is infinite; {} of the instrument {} taken as clipped, so the exposure may come out \
-         wrong; choose a larger range",
-        counted(.count, "overload"),
-        are(.count)
-    )]
-    Overload { count: usize, line: u64 },
     /// An edge of the sync was followed by others, as if a contact bounced, at so many of all shots, for so long at
     /// most.
     #[error(
@@ -442,7 +447,9 @@ impl Tell for Refusal {
         Some(match self {
             Self::NoTimes { .. } | Self::Counter { .. } | Self::TwoRates { .. } => M::Rate,
             Self::UnclearUnit { .. } => M::Unit,
-            Self::SameColumn { .. } | Self::NoColumn { .. } | Self::BrokenRows { .. } => M::Columns(""),
+            Self::SameColumn { .. } | Self::NoColumn { .. } | Self::BrokenRows { .. } | Self::TwoTimes { .. } => {
+                M::Columns("")
+            }
             Self::NoPulse { .. } | Self::Undetermined => M::Columns(""),
             Self::WhichWay => M::Light,
             Self::NoFrame { .. } | Self::OtherPulse { .. } => M::Frame,

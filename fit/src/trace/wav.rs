@@ -1,9 +1,5 @@
 //! A sound file as a trace: the channels are its columns, and it tells its rate.
 
-use std::io::Cursor;
-
-use hound::{SampleFormat, WavReader};
-
 use super::asked::{Column, Options};
 use super::reading::{Clock, Reading, Recording, Samples, Told};
 use super::samples::Trace;
@@ -12,36 +8,76 @@ use super::times::Timing;
 use super::told::{Refusal, Warning};
 
 /// From this length in bytes on, a recorder writes that it does not know it yet (2 or 4 GiB, less a header).
-const UNKNOWN: u64 = (1 << 31) - (1 << 16);
+const UNKNOWN: usize = (1 << 31) - (1 << 16);
 
 pub fn is_wav(bytes: &[u8]) -> bool {
     bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE")
 }
 
+/// What a WAV holds.
+struct Sound {
+    channels: usize,
+    rate: f64,
+    /// One channel's after the other's, as often as there are samples.
+    values: Vec<f64>,
+    /// So many samples of each channel are announced; none where the recorder did not know it.
+    announced: Option<usize>,
+}
+
+impl Sound {
+    /// Reads what a recorder may write, be its byte rate right or not.
+    fn parse(bytes: &[u8]) -> Result<Self, String> {
+        let number = |bytes: &[u8], at: usize, count: usize| {
+            let few = bytes.get(at..at + count)?;
+            Some(few.iter().rev().fold(0, |number, byte| number << 8 | usize::from(*byte)))
+        };
+        let (mut at, mut form) = (12, None);
+        while let (Some(id), Some(size)) = (bytes.get(at..at + 4), number(bytes, at + 4, 4)) {
+            let chunk = &bytes[at + 8..bytes.len().min((at + 8).saturating_add(size))];
+            match (id, form) {
+                (b"fmt ", _) => form = Some(chunk),
+                (b"data", Some(form)) => {
+                    let field = |at, count| number(form, at, count).ok_or("its format is cut off");
+                    let (tag, channels, rate) = (field(0, 2)?, field(2, 2)?, field(4, 4)?);
+                    let (block, bits) = (field(12, 2)?, field(14, 2)?);
+                    let tag = if tag == 0xfffe { field(24, 2)? } else { tag };
+                    if channels == 0 || rate == 0 {
+                        return Err("it has no channel or no rate".into());
+                    }
+                    // Few bits may stand in a wider field.
+                    let wide = Some(block / channels).filter(|wide| 8 * wide >= bits && *wide <= 8);
+                    let wide = wide.unwrap_or(bits.div_ceil(8));
+                    let value: fn(&[u8]) -> f64 = match (tag, wide) {
+                        (1, 1) => |few| f64::from(few[0]) / 128.0 - 1.0,
+                        (1, 2..=4) => |few| {
+                            let whole = few.iter().rev().fold(0, |whole: u32, byte| whole << 8 | u32::from(*byte));
+                            f64::from((whole << (32 - 8 * few.len())) as i32) / 2f64.powi(31)
+                        },
+                        (3, 4) => |few| f32::from_le_bytes(few.try_into().unwrap_or_default()).into(),
+                        (3, 8) => |few| f64::from_le_bytes(few.try_into().unwrap_or_default()),
+                        _ => return Err(format!("format {tag} of {bits} bits; save it as PCM of 16 bits")),
+                    };
+                    let announced = Some(size / wide / channels).filter(|_| size < UNKNOWN);
+                    let values = chunk.chunks_exact(wide).map(value).collect();
+                    return Ok(Self { channels, rate: rate as f64, values, announced });
+                }
+                _ => (),
+            }
+            at = (at + 8).saturating_add(size).saturating_add(size % 2);
+        }
+        Err("it has no samples".into())
+    }
+}
+
 /// The trace in the bytes of a WAV.
 pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
-    let refused = |reason: String| Refusal::NotCsv { reason };
-    let broken = |e: hound::Error| refused(format!("it is a WAV that cannot be read ({e})"));
-    let mut file = WavReader::new(Cursor::new(bytes)).map_err(broken)?;
-    let spec = file.spec();
-    let (channels, rate) = (usize::from(spec.channels), options.rate.unwrap_or(spec.sample_rate.into()));
-    if channels == 0 || rate <= 0.0 {
-        return Err(refused("it is a WAV without a channel or a rate".into()));
+    let refused = |reason: String| Refusal::NotCsv { reason: format!("it is a WAV that cannot be read: {reason}") };
+    let Sound { channels, rate, values, announced } = Sound::parse(bytes).map_err(refused)?;
+    if announced == Some(0) {
+        return Err(refused("it announces no samples; was its recording ended?".into()));
     }
-    let values: Vec<f64> = match spec.sample_format {
-        SampleFormat::Float => file.samples::<f32>().map_while(Result::ok).map(f64::from).collect(),
-        SampleFormat::Int => {
-            let full = 2f64.powi(i32::from(spec.bits_per_sample) - 1);
-            file.samples::<i32>().map_while(Result::ok).map(|x| f64::from(x) / full).collect()
-        }
-    };
-    // A recorder that never went back to its header says nothing of the length, or as much as the field holds.
-    let announced = file.len() as usize / channels;
-    let is_said = u64::from(file.len()) * u64::from(spec.bits_per_sample.div_ceil(8)) < UNKNOWN;
+    let rate = options.rate.unwrap_or(rate);
     let there = values.len() / channels;
-    if announced == 0 {
-        return Err(refused("it is a WAV that announces no samples; was its recording ended?".into()));
-    }
     let channel = |k: usize| {
         let values = values.iter().skip(k).step_by(channels);
         let is_sound = |(_, v): &(usize, &f64)| v.is_finite();
@@ -85,7 +121,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
         segments: 0,
     };
     let mut warnings = vec![Warning::SoundCard];
-    if there < announced && is_said {
+    if let Some(announced) = announced.filter(|announced| there < *announced) {
         warnings.push(Warning::CutOff { samples: there, announced });
     }
     let name = |k: usize| format!("channel {}", k + 1);

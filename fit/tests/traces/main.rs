@@ -4,6 +4,7 @@
 #[allow(dead_code)]
 #[path = "../../src/curve.rs"]
 mod curve;
+#[allow(dead_code)]
 #[path = "../../src/trace/names.rs"]
 mod names;
 #[allow(dead_code)]

@@ -4,7 +4,7 @@
 use core::hash::{Hash, Hasher};
 use core::hint::black_box;
 
-use shutter_curve::{CubicBezier, CurveError, Pulse, PulseLimits, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Hz, Pulse, ShutterCurve};
 
 use crate::baseline::Ramp;
 use crate::{CURVES, DEFAULT, uniform};
@@ -154,29 +154,34 @@ fn answers<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>, 
 fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>) {
     hash.add([curve.direct_triggers()]);
     for (n, hz) in [(64, 1_000), (33, 1_000_000), (17, 1_000_000_000), (0, 1), (5, 0), (5, u32::MAX), (u32::MAX, 1)] {
-        if let Some(ticks) = hash.made(curve.trigger_ticks(n, hz)) {
+        let Some(timed) = hash.made(curve.at(Hz(hz))) else { continue };
+        hash.add([timed.length()]);
+        let any = timed.min_gap(0).min_pulse(0);
+        if let Some(ticks) = hash.made(any.trigger_ticks(n)) {
             hash.add([ticks.is_direct(2)]);
             hash.all(ticks, |tick| tick);
         }
         for duty in [0.5, 1.0, 1e-6, 0.0, f32::NAN] {
-            if let Some(pulses) = hash.made(curve.pulse_ticks(n, duty, hz)) {
+            if let Some(pulses) = hash.made(any.pulse_ticks(n, duty)) {
                 hash.all(pulses, |pulse| pulse);
             }
         }
         let mut pulses = [Pulse::default(); 9];
-        hash.made(curve.pulses_into(&mut pulses, 0.3, hz, PulseLimits { min_pulse: 3, min_gap: 7 }));
+        let limited = timed.min_pulse(3).min_gap(7);
+        hash.made(limited.pulses_into(&mut pulses, 0.3));
         hash.add(pulses);
+        hash.add([limited.pulse_ticks(n, 0.3).is_ok()]);
         // The third is a gap that a part of the triggers would keep.
         for gap in [0, 7, (curve.exposure() * hz as f32 / 9.5) as u32, u32::MAX] {
-            let mut ticks = [0; 20];
-            hash.made(curve.ticks_into(&mut ticks, hz, gap));
+            let (mut ticks, timed) = ([0; 20], timed.min_gap(gap));
+            hash.made(timed.ticks_into(&mut ticks));
             hash.add(ticks);
-            let ticks = hash.made(curve.ticks::<3>(hz, gap));
+            let ticks = hash.made(timed.ticks::<3>());
             hash.add(ticks.into_iter().flatten());
-            let planned = hash.made(curve.ticks_vec::<64>(n, hz, gap));
+            let planned = hash.made(timed.ticks_vec::<64>(n));
             hash.add(planned.iter().flatten());
-            let most = hash.made(curve.max_triggers(n, hz, gap));
-            hash.add(most);
+            hash.add([timed.trigger_ticks(n).is_ok()]);
+            hash.add([timed.max_triggers(n)]);
         }
     }
 }

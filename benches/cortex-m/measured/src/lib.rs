@@ -1,7 +1,7 @@
 //! What runs on other processors and on the host: the curves, the inputs, and the calls that are counted.
 #![no_std]
 
-use shutter_curve::{CubicBezier, ShutterCurve};
+use shutter_curve::{CubicBezier, Hz, ShutterCurve};
 
 pub mod answers;
 #[path = "../../../baseline.rs"]
@@ -69,7 +69,7 @@ impl Function {
 
 /// The triggers of a schedule, and the timer's rate.
 pub const TRIGGERS: u32 = 64;
-pub const TICK_HZ: u32 = 1_000_000;
+pub const TICK_HZ: Hz = Hz(1_000_000);
 
 /// A tick is counted in a frame of the most triggers that there are: the one next to the fraction.
 pub const MOST_TRIGGERS: u32 = 1 << 22;

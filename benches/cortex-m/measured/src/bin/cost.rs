@@ -13,7 +13,7 @@ use core::mem::MaybeUninit;
 
 use measured::baseline::{InverseTable, NearerEnd, StraightRamps};
 use measured::{CURVES, FUNCTIONS, Function, MOST, MOST_TRIGGERS, TICK_HZ, TRIGGERS, TYPICAL, trigger};
-use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, expect_valid};
+use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, expect};
 
 #[path = "../machine.rs"]
 mod machine;
@@ -46,7 +46,7 @@ macro_rules! each_static {
     ($($i:literal)*) => { [$({
         static CURVE: ShutterCurve = {
             let measured::Curve { opening, closing, .. } = CURVES[$i];
-            expect_valid(ShutterCurve::new(CubicBezier::new(opening), CubicBezier::new(closing)))
+            expect!(ShutterCurve::new(CubicBezier::new(opening), CubicBezier::new(closing)))
         };
         // Named so that the host finds it.
         #[inline(never)]
@@ -141,7 +141,10 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
         Function::Cdf => each(us, |u| the_call(ShutterCurve::cdf, curve, start + length * u)),
         Function::Openness => each(us, |u| the_call(ShutterCurve::openness, curve, start + length * u)),
         Function::Tick => {
-            let frame = curve.trigger_ticks(MOST_TRIGGERS, black_box(TICK_HZ)).expect("a good rate");
+            let frame = curve
+                .at(black_box(TICK_HZ))
+                .and_then(|timed| timed.min_gap(0).trigger_ticks(MOST_TRIGGERS))
+                .expect("a good rate");
             each(us, |u| {
                 let mut ticks = frame.clone();
                 if let Some(before) = trigger(u).checked_sub(1) {
@@ -152,7 +155,9 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
         }
         Function::Schedule => {
             let mut ticks = [0; TRIGGERS as usize];
-            let plan = |curve: &ShutterCurve<C>, ticks: &mut _| curve.ticks_into(ticks, TICK_HZ, 1).is_ok();
+            let plan = |curve: &ShutterCurve<C>, ticks: &mut [u32; TRIGGERS as usize]| {
+                curve.at(TICK_HZ).is_ok_and(|timed| timed.ticks_into(ticks).is_ok())
+            };
             each(us, |_| (the_call(plan, curve, &mut ticks), black_box(ticks)))
         }
         Function::Construct => {

@@ -1,7 +1,7 @@
 //! Links only if no panic can be reached: every public function with inputs that the compiler knows nothing of.
 //!
-//! Left out are `expect_valid`, which exists to panic in a constant, and `Debug`, `Display` and `defmt::Format`: core's
-//! formatting has panics of its own. As the program `panic` it is the control, which must not link: `expect_valid` too.
+//! Left out are `expect!`, which exists to panic in a constant, and `Debug`, `Display` and `defmt::Format`: core's
+//! formatting has panics of its own. As the program `panic` it is the control, which must not link: `expect!` too.
 #![no_std]
 #![no_main]
 
@@ -22,7 +22,7 @@ fn panicked(_: &PanicInfo) -> ! {
 fn run() -> ! {
     if let b"panic" = env!("CARGO_BIN_NAME").as_bytes() {
         let curve = black_box(shutter_curve::ShutterCurve::linear(0.0, 1.0, 2.0, 3.0));
-        black_box(shutter_curve::expect_valid(curve));
+        black_box(shutter_curve::expect!(curve));
     }
     let us: &[f32] = black_box(&[0.5; 300]);
     black_box(measured::answers::of_ramps(black_box([[(0.0, 0.0); 4]; 2]), us));

@@ -1,0 +1,297 @@
+//! A curve on a timer: what a frame of triggers or pulses is asked of.
+
+use crate::error::{ScheduleError, tried};
+use crate::inverse::Inverse;
+use crate::trigger::iterator::{PulseTicks, TriggerTicks};
+use crate::trigger::pulse::{Pulse, Pulses};
+use crate::trigger::ticks::{Hz, MOST_TRIGGERS, TickScale, Ticks};
+
+/// A curve on a timer of a known rate, from [`ShutterCurve::at`](crate::ShutterCurve::at): it plans frames of triggers
+/// and pulses, in the timer's ticks.
+///
+/// Ticks count from the moment when the shutter starts to open. Add your timer's count at that moment, with
+/// `wrapping_add`.
+///
+/// *Triggers* divide the exposure into equal shares, and each is in the middle of its share: trigger `i` of `n` is at
+/// the fraction `u = (2i + 1) / 2n`. Use them while the camera's own shutter stays open.
+///
+/// *Pulses* are for a steady lamp that shines through this shutter. Each sends the same amount of light through it: it
+/// covers the fraction `duty` of its share, in the middle. Pulse `i` starts at `u = (i + 1/2 - duty/2) / n` and ends at
+/// `u = (i + 1/2 + duty/2) / n`. Where the shutter is half open, it lasts longer.
+///
+/// Ticks never decrease, and pulses never overlap. If a typical curve has at most 2²⁴ ticks, each trigger is within
+/// 0.85 tick of the exact time. On longer curves the error can be many ticks: 8 were seen at 2²⁹ ticks, and 32 at 2³¹.
+/// [`accuracy`](crate::accuracy) has a promise for every curve.
+///
+/// # Checks
+///
+/// A frame keeps [`min_gap`](Self::min_gap) and [`min_pulse`](Self::min_pulse), both 1 tick at first. So neither two
+/// triggers on one tick nor an empty pulse pass unnoticed; both often come of a wrong rate. A frame has at most 2²²
+/// triggers or pulses. Each call that makes one returns a [`ScheduleError`] where a frame breaks a rule; the text names
+/// the trigger or pulse, and what to change.
+///
+/// ```
+/// use shutter_curve::{Hz, ScheduleError, ShutterCurve, TimedCurve, expect};
+/// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// // A lamp that needs 1 ms between two flashes, on a timer that counts µs.
+/// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000);
+/// const TICKS: [u32; 5] = expect!(FLASH.ticks());
+/// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
+/// // Sixteen are too many.
+/// let error = FLASH.ticks::<16>().unwrap_err();
+/// assert_eq!(error, ScheduleError::GapTooSmall { trigger: 1, gap: 792, min_gap: 1_000 });
+/// assert_eq!(FLASH.max_triggers(16), 7);
+/// ```
+#[derive(Clone, Copy)]
+pub struct TimedCurve<'a, const OCTAVES: usize = 8> {
+    inverse: &'a Inverse<OCTAVES>,
+    scale: TickScale,
+    /// The ticks for which a fully open shutter would collect as much light, rounded down.
+    exposure: u32,
+    min_gap: u32,
+    min_pulse: u32,
+}
+
+impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
+    pub(crate) const fn new(inverse: &'a Inverse<OCTAVES>, rate: Hz, exposure: f32) -> Result<Self, ScheduleError> {
+        let scale = tried!(TickScale::new(inverse, rate));
+        // The exposure is within 2⁻²³ of itself, and the rate, the product and the result are rounded by 2⁻²⁴.
+        let exposure = (exposure * rate.0 as f32 * (1.0 - 3.0 / (1 << 23) as f32)) as u32;
+        Ok(Self { inverse, scale, exposure, min_gap: 1, min_pulse: 1 })
+    }
+
+    /// Sets the minimum gap between two triggers, and from the end of a pulse to the start of the next, in ticks. With
+    /// 0, triggers may share a tick, and pulses may touch.
+    #[must_use]
+    pub const fn min_gap(mut self, ticks: u32) -> Self {
+        self.min_gap = ticks;
+        self
+    }
+
+    /// Sets the minimum length of a pulse, in ticks. With 0, a pulse may start and end at the same tick.
+    #[must_use]
+    pub const fn min_pulse(mut self, ticks: u32) -> Self {
+        self.min_pulse = ticks;
+        self
+    }
+
+    /// The tick at which the shutter is closed, at most 2³¹. No trigger or pulse is later.
+    ///
+    /// A timer of 16 bits can tell before from after if this is at most 2¹⁵:
+    ///
+    /// ```
+    /// use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
+    /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000)));
+    /// const _: () = assert!(FLASH.length() <= 1 << 15);
+    /// assert_eq!(FLASH.length(), 10_000);
+    /// ```
+    #[must_use]
+    pub const fn length(&self) -> u32 {
+        self.scale.length(self.inverse)
+    }
+
+    /// The ticks of a frame of `n` triggers, as an iterator.
+    ///
+    /// The call takes a short time if the exposure is long enough for any `n` triggers to keep the gap. Otherwise it
+    /// computes the whole frame to check it, as [`ticks_into`](Self::ticks_into) does.
+    ///
+    /// ```
+    /// use shutter_curve::{Hz, ShutterCurve, expect};
+    /// // A shutter that opens in no time, closes 8 ms later in no time, and a 1 MHz timer.
+    /// let curve: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
+    /// assert!(curve.at(Hz(1_000_000))?.trigger_ticks(4)?.eq([1000, 3000, 5000, 7000]));
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns a [`ScheduleError`] if `n` is above 2²², or if a gap is too small.
+    pub const fn trigger_ticks(&self, n: u32) -> Result<TriggerTicks<'a, OCTAVES>, ScheduleError> {
+        let frame = tried!(self.frame(n));
+        if !self.surely_keep(self.exposure, n, self.min_gap) {
+            tried!(frame.check(self.min_gap));
+        }
+        Ok(TriggerTicks { frame, left: 0..n })
+    }
+
+    /// Fills `ticks` with the ticks of a frame: as many triggers as it has places.
+    ///
+    /// # Errors
+    /// Returns a [`ScheduleError`] if a gap is too small. The slice then holds part of the frame. Returns one, too, if
+    /// there are more than 2²² places.
+    pub const fn ticks_into(&self, ticks: &mut [u32]) -> Result<(), ScheduleError> {
+        let frame = tried!(self.frame(saturated(ticks.len())));
+        frame.fill(ticks, self.min_gap)
+    }
+
+    /// The ticks of a frame of `N` triggers, as an array.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ticks_into`](Self::ticks_into).
+    pub const fn ticks<const N: usize>(&self) -> Result<[u32; N], ScheduleError> {
+        let mut ticks = [0; N];
+        tried!(self.ticks_into(&mut ticks));
+        Ok(ticks)
+    }
+
+    /// The ticks of a frame of `n` triggers, in a `heapless::Vec`. This needs the feature `heapless-v0_9`.
+    ///
+    /// ```
+    /// use shutter_curve::{Hz, ShutterCurve, expect};
+    /// let curve: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// let ticks: heapless::Vec<u32, 16> = curve.at(Hz(1_000_000))?.ticks_vec(5)?;
+    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns a [`ScheduleError`] if `n` is above `N`, and the errors of [`ticks_into`](Self::ticks_into).
+    #[cfg(feature = "heapless-v0_9")]
+    pub fn ticks_vec<const N: usize>(&self, n: u32) -> Result<heapless::Vec<u32, N>, ScheduleError> {
+        let mut ticks = heapless::Vec::new();
+        let fits = usize::try_from(n).is_ok_and(|n| ticks.resize(n, 0).is_ok());
+        if !fits {
+            return Err(ScheduleError::TooMany {
+                max: if N < MOST_TRIGGERS as usize { N as u32 } else { MOST_TRIGGERS },
+            });
+        }
+        self.ticks_into(&mut ticks)?;
+        Ok(ticks)
+    }
+
+    /// A number of triggers, up to `wanted`, that keep the gap. If it is below `wanted` and 2²², one more trigger would
+    /// not keep the gap. It is 0 only if `wanted` is 0.
+    ///
+    /// On a coarse timer, a smaller number may fail, and a larger one may keep the gap.
+    ///
+    /// The call takes a short time if the exposure is long enough for any `wanted` triggers to keep the gap. Otherwise
+    /// it computes frames until it finds the number, 6 in the mean and up to 20.
+    #[must_use]
+    pub const fn max_triggers(&self, wanted: u32) -> u32 {
+        let wanted = if wanted < MOST_TRIGGERS { wanted } else { MOST_TRIGGERS };
+        let sure = self.exposure / self.room(self.min_gap);
+        if wanted <= 1 || wanted <= sure || self.min_gap == 0 {
+            return wanted;
+        }
+        // First the whole frame, then as many triggers as the exposure has gaps, then doubled steps and bisection. One
+        // trigger keeps any gap.
+        let (mut keep, mut fail, mut step) = (if sure > 1 { sure } else { 1 }, wanted + 1, 0u32);
+        let mut n = wanted;
+        while fail - keep > 1 {
+            let keeps = match self.frame(n) {
+                Ok(frame) => frame.check(self.min_gap).is_ok(),
+                Err(_) => false,
+            };
+            *(if keeps { &mut keep } else { &mut fail }) = n;
+            let next = if step == 0 {
+                self.exposure / self.min_gap
+            } else if keeps {
+                keep.saturating_add(step)
+            } else {
+                fail.saturating_sub(step)
+            };
+            n = if next <= keep || next >= fail { keep + (fail - keep) / 2 } else { next };
+            step = step.saturating_mul(2) | 1;
+        }
+        keep
+    }
+
+    /// A frame of `n` pulses, as an iterator. With a duty of 1 pulses touch, which needs a
+    /// [`min_gap`](Self::min_gap) of 0.
+    ///
+    /// The call takes a short time if the exposure is long enough for any `n` pulses of this duty. Otherwise it
+    /// computes the whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
+    ///
+    /// ```
+    /// use shutter_curve::{Hz, Pulse, ShutterCurve, expect};
+    /// // Where the shutter is half closed, a pulse lasts longer.
+    /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// let pulses: Vec<Pulse> = SHUTTER.at(Hz(1_000_000))?.pulse_ticks(3, 0.5)?.collect();
+    /// assert_eq!(pulses[0], Pulse { on: 1414, off: 2500 });
+    /// assert_eq!(pulses[1], Pulse { on: 3500, off: 4500 });
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns a [`ScheduleError`] if the duty is NaN, 0 or less, or above 1, if `n` is above 2²², or if a pulse or a
+    /// gap is too short.
+    pub const fn pulse_ticks(&self, n: u32, duty: f32) -> Result<PulseTicks<'a, OCTAVES>, ScheduleError> {
+        let frame = tried!(self.pulse_frame(n, duty));
+        let lit = (self.exposure as f32 * duty) as u32;
+        let dark = (self.exposure as f32 * (1.0 - duty)) as u32;
+        if !(self.surely_keep(lit, n, self.min_pulse) && self.surely_keep(dark, n, self.min_gap)) {
+            tried!(frame.check(self.min_gap, self.min_pulse));
+        }
+        Ok(PulseTicks { frame, left: 0..n })
+    }
+
+    /// Fills `pulses` with a frame: as many pulses as it has places.
+    ///
+    /// # Errors
+    /// Returns a [`ScheduleError`] if a pulse or a gap is too short. The slice then holds part of the frame. Returns
+    /// one, too, if the duty is out of range, or if there are more than 2²² places.
+    pub const fn pulses_into(&self, pulses: &mut [Pulse], duty: f32) -> Result<(), ScheduleError> {
+        let frame = tried!(self.pulse_frame(saturated(pulses.len()), duty));
+        frame.fill(pulses, self.min_gap, self.min_pulse)
+    }
+
+    /// A frame of `N` pulses, as an array.
+    ///
+    /// ```
+    /// use shutter_curve::{Hz, Pulse, ShutterCurve, TimedCurve, expect};
+    /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// const LAMP: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000).min_pulse(1_000);
+    /// const PULSES: [Pulse; 3] = expect!(LAMP.pulses(0.5));
+    /// assert_eq!(PULSES[1], Pulse { on: 3500, off: 4500 });
+    /// ```
+    ///
+    /// # Errors
+    /// Returns the errors of [`pulses_into`](Self::pulses_into).
+    pub const fn pulses<const N: usize>(&self, duty: f32) -> Result<[Pulse; N], ScheduleError> {
+        let mut pulses = [Pulse { on: 0, off: 0 }; N];
+        tried!(self.pulses_into(&mut pulses, duty));
+        Ok(pulses)
+    }
+
+    const fn frame(&self, n: u32) -> Result<Ticks<'a, OCTAVES>, ScheduleError> {
+        Ticks::new(self.inverse, self.scale, n)
+    }
+
+    const fn pulse_frame(&self, n: u32, duty: f32) -> Result<Pulses<'a, OCTAVES>, ScheduleError> {
+        Pulses::new(tried!(self.frame(n)), duty)
+    }
+
+    /// The ticks of the exposure that a trigger needs, for the next to be `least` ticks later for sure.
+    ///
+    /// Openness is at most 1, so a share of the exposure takes at least its part of `exposure`, `E / n`. Each end errs
+    /// by 0.52 tick and by two ulp of its fraction, at most 2⁻²³ of `E` (accuracy.md). With the remainder of the
+    /// division, and a `part` that was rounded, 3 ticks and 2⁻²¹ of `E` are enough.
+    const fn room(&self, least: u32) -> u32 {
+        least.saturating_add(3 + (self.exposure >> 21))
+    }
+
+    /// Are `least` ticks kept by each of `n` equal shares of a `part` of the exposure, whatever the curve?
+    const fn surely_keep(&self, part: u32, n: u32, least: u32) -> bool {
+        n == 0 || least == 0 || part / n >= self.room(least)
+    }
+}
+
+const fn saturated(n: usize) -> u32 {
+    if (n as u64) < u32::MAX as u64 { n as u32 } else { u32::MAX }
+}
+
+impl<const OCTAVES: usize> core::fmt::Debug for TimedCurve<'_, OCTAVES> {
+    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let mut out = out.debug_struct("TimedCurve");
+        let out = out.field("length", &self.length()).field("min_gap", &self.min_gap);
+        out.field("min_pulse", &self.min_pulse).finish_non_exhaustive()
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<const OCTAVES: usize> defmt::Format for TimedCurve<'_, OCTAVES> {
+    fn format(&self, out: defmt::Formatter<'_>) {
+        let (length, gap, pulse) = (self.length(), self.min_gap, self.min_pulse);
+        defmt::write!(out, "TimedCurve {{ length: {}, min_gap: {}, min_pulse: {}, .. }}", length, gap, pulse);
+    }
+}
