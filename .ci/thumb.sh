@@ -5,9 +5,9 @@
 #   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
 #   TOOLS= .ci/thumb.sh COMMAND                without the log decoder
 #
-# What the machine has is used as it is (`rustup target add ...`, the system's qemu-system-arm and defmt-print). What is
-# missing is unpacked from Debian's packages, or built, into a cache folder; nothing is installed. The settings last for
-# the command alone.
+# What the machine has is used as it is. A missing target is added by rustup; where that cannot fetch it, Debian's
+# compiler is unpacked into a cache folder, and so are QEMU and the log decoder if they are missing: neither is
+# installed. The settings last for the command alone.
 set -euo pipefail
 
 read -ra targets <<<"${TARGETS:-thumbv7em-none-eabihf thumbv6m-none-eabi}"
@@ -145,14 +145,22 @@ if command -v flock >/dev/null; then flock 9; fi
 path=$bin
 # The machine's own compiler, for what runs on the machine: Debian's takes nearly twice as long.
 export HOST_RUSTC=${HOST_RUSTC:-$(rustc --print sysroot)/bin/rustc}
-for target in "${targets[@]}"; do
-    if [ ! -d "$(rustc --print target-libdir --target "$target")" ]; then
-        set_up_rustc
-        export RUSTC=$compiler/bin/rustc
-        path=$compiler/bin:$bin
-        break
-    fi
-done
+lacks_targets() {
+    local target
+    for target in "${targets[@]}"; do
+        [ -d "$(rustc --print target-libdir --target "$target")" ] || return 0
+    done
+    return 1
+}
+if lacks_targets && command -v rustup >/dev/null; then
+    say "rustup target add ${targets[*]} ..."
+    rustup --quiet target add "${targets[@]}" >&2 || say "rustup cannot fetch them"
+fi
+if lacks_targets; then
+    set_up_rustc
+    export RUSTC=$compiler/bin/rustc
+    path=$compiler/bin:$bin
+fi
 
 if ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; then
     unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" \
