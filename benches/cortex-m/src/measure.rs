@@ -76,13 +76,11 @@ impl Measured {
         Some([mean(|call| call.instructions), mean(|call| call.cycles)])
     }
 
-    /// The most cycles of a call at hard fractions of any curve, or of one that took no search; with its curve and
-    /// fraction.
-    pub fn worst(&self, of: Of, is_direct: bool) -> Option<(u32, String)> {
+    /// The most cycles of a call at hard fractions of any curve, or of one that took no search.
+    pub fn worst(&self, of: Of, is_direct: bool) -> Option<u32> {
         let calls = self.all(of).filter(|series| series.is_hard).flat_map(|series| {
             let direct = if is_direct { direct(series) } else { vec![true; series.us.len()] };
-            let calls = series.us.iter().zip(&series.calls).zip(direct).filter(|(_, counts)| *counts);
-            calls.map(|((u, call), _)| (call.cycles, format!("{}, u = {u}", CURVES[series.curve].name)))
+            series.calls.iter().zip(direct).filter(|(_, counts)| *counts).map(|(call, _)| call.cycles)
         });
         calls.max()
     }

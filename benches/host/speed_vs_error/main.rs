@@ -13,7 +13,6 @@ mod report;
 mod support;
 mod timing;
 
-use methods::METHODS;
 use report::Measured;
 
 const DOCS: &str = "docs/internals";
@@ -26,10 +25,7 @@ fn main() -> Result {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => {
-            println!("{}\n", report::methods(&measured(20, 500, 900, 5)?));
-            let calls = methods::calls();
-            let times = timing::times(&calls.iter().map(|(.., call)| &**call).collect::<Vec<_>>(), 64, 101);
-            println!("{}", report::calls(&calls, &times));
+            println!("{}", report::methods(&measured(20, 500, 900, 5)?));
             Ok(())
         }
         ["--write-docs"] => {
@@ -45,13 +41,12 @@ fn main() -> Result {
 /// On so many random and so many hard curves.
 fn measured(random: u64, samples: usize, hard: usize, repeats: usize) -> Result<Measured> {
     let curves = accuracy::curves(random);
-    let methods = METHODS.map(|method| (method.build)(&methods::curve(method.curve())).expect("it serves that curve"));
     Ok(Measured {
         curves: curves.len(),
         samples,
         hard: (hard, accuracy::of_hard_curves(hard)),
         figures: accuracy::measure(&curves, samples),
-        times: timing::times(&methods.iter().map(|method| &**method).collect::<Vec<_>>(), 1 << 16, repeats),
+        times: timing::times(repeats),
         cycles: report::cycles(&std::fs::read_to_string(format!("{DOCS}/cost.md"))?)?,
     })
 }

@@ -1,8 +1,8 @@
-//! The methods under comparison, the crate's other calls, and the curves that they are timed on.
+//! The methods under comparison, and the curves that they are timed on.
 
 use std::hint::black_box;
 
-use shutter_curve::{CubicBezier, Hz};
+use shutter_curve::CubicBezier;
 
 use crate::support::cases::shutter;
 use crate::support::curves::{Rng, line, named};
@@ -43,7 +43,7 @@ pub fn fractions(count: usize) -> Vec<f32> {
 }
 
 /// A method as it is used on a curve.
-pub trait Inverse: Send + Sync {
+pub trait Inverse {
     fn inverse_cdf(&self, u: f32) -> f32;
 
     /// One call after the other, each result kept from being optimised away.
@@ -54,7 +54,7 @@ pub trait Inverse: Send + Sync {
     }
 }
 
-impl<F: Fn(f32) -> f32 + Send + Sync> Inverse for F {
+impl<F: Fn(f32) -> f32> Inverse for F {
     fn inverse_cdf(&self, u: f32) -> f32 {
         self(u)
     }
@@ -105,31 +105,6 @@ impl Method {
     }
 }
 
-/// The crate's other calls on each curve, as functions of a fraction; a curve lasts from 0 to 1.
-pub fn calls() -> Vec<(&'static str, &'static str, Box<dyn Inverse>)> {
-    let calls = CURVES.iter().enumerate().flat_map(|(place, [name, _])| {
-        let (data, ours) = (curve(place), shutter::<8>(&curve(place)));
-        let (by_cdf, by_frame) = (ours.clone(), ours.clone());
-        let schedule = move |_| {
-            let mut ticks = [0; 64];
-            let is_planned = ours.at(Hz(1 << 24)).is_ok_and(|timed| timed.ticks_into(&mut ticks).is_ok());
-            f32::from(u8::from(is_planned)) + ticks[63] as f32
-        };
-        let tick = move |u: f32| {
-            let mut frame =
-                by_frame.at(Hz(1 << 24)).and_then(|timed| timed.trigger_ticks(1 << 22)).expect("a good rate");
-            frame.nth((u * (1 << 22) as f32) as usize).unwrap_or_default() as f32
-        };
-        [
-            (*name, "`cdf`", boxed(move |u| by_cdf.cdf(u))),
-            (*name, "a tick", boxed(tick)),
-            (*name, "a schedule of 64", boxed(schedule)),
-            (*name, "building", boxed(move |_| shutter::<8>(black_box(&data)).exposure())),
-        ]
-    });
-    calls.map(|(curve, call, boxed)| (curve, call, boxed.expect("a call"))).collect()
-}
-
 fn boxed(inverse: impl Inverse + 'static) -> Built {
     Some(Box::new(inverse))
 }
@@ -152,7 +127,7 @@ fn table(curve: &Curve) -> Built {
 }
 
 /// If the ramps are straight, from 0 to 1 and back, or have no length.
-fn root(curve: &Curve, sqrt: impl Fn(f32) -> f32 + Send + Sync + 'static) -> Built {
+fn root(curve: &Curve, sqrt: impl Fn(f32) -> f32 + 'static) -> Built {
     let is_line = |ramp: Points, [from, to]: [f32; 2]| {
         let [start, .., end] = ramp.map(|point| point.0);
         start == end || ramp == line((start, from), (end, to))

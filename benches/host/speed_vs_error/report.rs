@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::accuracy::{Figures, of_triggers};
-use crate::methods::{CURVES, Inverse, METHODS};
+use crate::methods::{CURVES, METHODS};
 
 /// Everything measured; of the methods in their order.
 pub struct Measured {
@@ -61,12 +61,6 @@ pub fn methods(measured: &Measured) -> String {
         [method.name.into(), time].into_iter().chain(errors).chain([triggers]).collect()
     });
     table("method | ns | ulp(t) | of the interval | hard curves | steps back | a leaf's triggers", rows)
-}
-
-/// Nanoseconds of the crate's other calls.
-pub fn calls(calls: &[(&str, &str, Box<dyn Inverse>)], times: &[f64]) -> String {
-    let rows = calls.iter().zip(times).map(|((curve, call, _), ns)| vec![format!("{call} on {curve}"), number(*ns)]);
-    table("call | ns", rows)
 }
 
 pub fn page(measured: &Measured) -> String {

@@ -2,19 +2,20 @@
 
 use std::time::Instant;
 
-use crate::methods::{Inverse, fractions};
+use crate::methods::{METHODS, curve, fractions};
 
 /// Calls a run.
 const RUN: usize = 1 << 11;
 
-/// Nanoseconds a call of each, at so many random fractions.
-pub fn times(all: &[&dyn Inverse], count: usize, repeats: usize) -> Vec<f64> {
-    let us = fractions(count);
-    let mut times = vec![vec![Vec::new(); us.len().div_ceil(RUN)]; all.len()];
+/// Nanoseconds a call of every method.
+pub fn times(repeats: usize) -> Vec<f64> {
+    let us = fractions(1 << 16);
+    let methods = METHODS.map(|method| (method.build)(&curve(method.curve())).expect("it serves that curve"));
+    let mut times = vec![vec![Vec::new(); us.len() / RUN]; methods.len()];
     for (run, us) in (0..repeats).flat_map(|_| us.chunks(RUN).enumerate()) {
-        for (one, times) in all.iter().zip(&mut times) {
+        for (method, times) in methods.iter().zip(&mut times) {
             let start = Instant::now();
-            one.each(us);
+            method.each(us);
             times[run].push(start.elapsed().as_nanos() as f64);
         }
     }

@@ -19,11 +19,10 @@ pub struct Curve {
 include!(concat!(env!("OUT_DIR"), "/curves.rs"));
 
 /// The first of [`CURVES`] as the reader knows them.
-pub const NAMES: [&str; 4] = ["soft", "all ramp", "trapezoid", "box"];
+pub const NAMES: [&str; 3] = ["soft", "all ramp", "trapezoid"];
 pub const SOFT: usize = 0;
 pub const ALL_RAMP: usize = 1;
 pub const TRAPEZOID: usize = 2;
-pub const BOX: usize = 3;
 
 impl Curve {
     /// The ramps in an interval of a second up to twice that, as the timer's rate is the same for all: a power of two
