@@ -41,8 +41,8 @@ impl Curve {
     }
 }
 
-/// The `i`-th of numbers spread evenly over [0, 1): the golden ratio's multiples, the first so many of which are as even
-/// as can be, whatever their number.
+/// The `i`-th of numbers spread evenly over [0, 1): the golden ratio's multiples. Any first so many of them are as even
+/// as can be.
 pub fn uniform(i: u32) -> f32 {
     (i.wrapping_mul(0x9E37_79B9).wrapping_add(0x4F1B_BCDC) >> 8) as f32 / (1 << 24) as f32
 }

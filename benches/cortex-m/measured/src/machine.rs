@@ -1,5 +1,5 @@
-//! Where a program runs: on one of QEMU's boards with an Arm core; or as a bare Linux program, by system calls alone, for
-//! other processors in QEMU's user mode. It starts in the program's `run` and panics in its `panicked`.
+//! Where a program runs: on one of QEMU's boards with an Arm core; for other processors in QEMU's user mode, as a Linux
+//! program by system calls alone. It starts in the program's `run` and panics in its `panicked`.
 #![allow(dead_code, unreachable_code, unused_imports, reason = "a program needs a part, and some run for ever")]
 
 use core::fmt::{self, Write};
