@@ -87,7 +87,8 @@ impl ShutterCurve {
     ///
     /// The `times` are when the shutter starts to open, is fully open, starts to close, and is closed. The `inner`
     /// control points are `[t1, y1, t2, y2]` of the opening ramp and `[t5, y5, t6, y6]` of the closing one. Each `t` is
-    /// a fraction of the *whole* interval, 0 at the first of the `times` and 1 at the last. Each `y` is an openness.
+    /// a fraction of the *whole* interval, 0 at the first of the `times` and 1 at the last. Each `y` is an openness. A `t`
+    /// that rounding put outside its ramp, by up to 2⁻²¹ of the greatest |time|, counts as the ramp's end.
     ///
     /// ```
     /// use shutter_curve::{CurveError, Part, ShutterCurve};
@@ -287,12 +288,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
-    /// The largest number of triggers that a frame can have without a search. Computing each trigger then takes a
-    /// short, bounded time. Pulses may need searches even in smaller frames.
+    /// A number of triggers up to which no frame needs a search. Computing each trigger then takes a short, bounded
+    /// time. A larger frame may need none either. Pulses may need searches even in smaller frames.
     ///
     /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
-    /// double it, up to 2²². The number is 0 on curves that are too difficult for polynomials. With `OCTAVES = 0` it is
-    /// also 0 if the middle of the exposure lies on a ramp.
+    /// double it, up to 2²². If it is 0, a frame of any size may need searches: on curves that are too difficult for
+    /// polynomials, and with `OCTAVES = 0` if the middle of the exposure lies on a ramp.
     ///
     /// A constant can check the number at compile time:
     ///

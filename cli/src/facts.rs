@@ -5,7 +5,7 @@ use shutter_fit::unit::{Unit, count, short, stops};
 
 use crate::delay::{Delay, Lag};
 use crate::lamp::{FullyOpen, Lamp, SetUp};
-use crate::plan::Plan;
+use crate::plan::{MOST_TRIGGERS, Plan};
 use crate::planned::Planned;
 use crate::set_up::doses;
 use crate::times::Times;
@@ -97,13 +97,14 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     lines.extend(pulses(plan).map(|pulses| ("pulses", pulses)));
     lines.push(("set-up", set_up(plan)));
     let keep = match plan.most {
-        1 => "1 keeps the gap".into(),
-        most => format!("up to {most} keep the gap"),
+        1 => "1 keeps the gap, 2 do not".into(),
+        MOST_TRIGGERS => format!("{MOST_TRIGGERS} keep the gap"),
+        most => format!("{most} keep the gap, {} do not", most + 1),
     };
     lines.push(("triggers", format!("{}; {keep}", plan.triggers.len())));
     let direct = match curve.direct_triggers() {
-        0 => "every frame needs a search".into(),
-        n => format!("frames of up to {} never need a search", count(n, "trigger")),
+        0 => "a frame of any size may need searches".into(),
+        n => format!("no frame of up to {} needs a search", count(n, "trigger")),
     };
     lines.push(("direct", direct));
     lines

@@ -238,7 +238,7 @@ const EMULATED: &str = "it is for a shutter in the light's path, and set_up is \
 fn keep(most: &Option<u32>) -> String {
     match most {
         Some(1) => "1 trigger keeps that".into(),
-        Some(most) => format!("up to {most} triggers keep that"),
+        Some(most) => format!("{most} triggers keep that"),
         None => "no number of triggers keeps that".into(),
     }
 }

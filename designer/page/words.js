@@ -8,7 +8,7 @@ export const label = (id) =>
   id === 'fully_open' ? 'flashes while fully open' : $(id).labels[0].firstChild.data.trim().replace(/,$/, '');
 
 const many = (most) =>
-  !most ? 'no number of flashes keeps that' : most > 1 ? `up to ${most} flashes keep that` : '1 flash keeps that';
+  !most ? 'no number of flashes keeps that' : most > 1 ? `${most} flashes keep that` : '1 flash keeps that';
 const pair = (things, of, [i, gap, least]) =>
   `${things} ${i} and ${i + 1} ${gap < 0 ? `overlap by ${of(-gap)}` : `come ${of(gap)} apart`}, `
   + `and ${of(least)} is required`;

@@ -553,6 +553,11 @@ fn shutteropening_names_what_is_wrong() {
             assert_eq!(curve(times, inner), Err(E::FractionOutsideRamp { part, point }), "{beyond}");
         }
     }
+    // Six ulp beyond, on an interval of 256.
+    let far = [65535.0, 65535.25, 65535.75, 65536.0];
+    let beyond = curve(far, [0.1, 0.0, 0.2734, 1.0, 0.85, 1.0, 0.9, 0.0]);
+    assert_eq!(beyond, Err(E::FractionOutsideRamp { part: Opening, point: 2 }));
+    assert_eq!(curve(far, [0.1, 0.0, 0.2539, 1.0, 0.85, 1.0, 0.9, 0.0]), Ok(()));
     // The ramp whose number it is.
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for i in 0..12 {

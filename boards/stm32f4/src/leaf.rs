@@ -1,4 +1,4 @@
-// Checksum 132ac16e of the lines below: `shutter` replaces them while it holds
+// Checksum 41e4fb70 of the lines below: `shutter` replaces them while it holds
 // Made by `shutter plan` 0.2.0.
 //
 // scene        measured
@@ -12,8 +12,8 @@
 // delay        4.247 ms from the sync's rising edge to the start of opening
 // gap          at least 0.1 ms; the closest two come 0.39088 ms apart
 // set-up       emulated: equal flashes while the camera's own shutter stays open
-// triggers     16; up to 62 keep the gap
-// direct       frames of up to 630 triggers never need a search
+// triggers     16; 62 keep the gap, 63 do not
+// direct       no frame of up to 630 triggers needs a search
 
 /// The timer's rate.
 #[allow(dead_code)]

@@ -348,8 +348,8 @@ fn facts_of_a_trapezoid_are_those_of_its_geometry() {
         "exposure     TV 0.75 s,",
         "efficiency   75 %\n",
         "nominal      0.75 s, ΔEV +0.00\n",
-        "triggers     7; up to 7 keep the gap\n",
-        &format!("direct       frames of up to {direct} triggers never need a search\n"),
+        "triggers     7; 7 keep the gap, 8 do not\n",
+        &format!("direct       no frame of up to {direct} triggers needs a search\n"),
     ] {
         has(&out, &[fact], &[]);
     }

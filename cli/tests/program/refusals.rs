@@ -128,13 +128,13 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     // Triggers that are too close: they come at 265.625 and 359.375 ticks, and two on one tick though no gap is asked
     // for.
     (TRAPEZOID, "triggers = 8", "triggers",
-        "triggers 1 and 2 come 93 ticks apart, and 100 are required; up to 7 triggers keep that"),
+        "triggers 1 and 2 come 93 ticks apart, and 100 are required; 7 triggers keep that"),
     (TRAPEZOID, "timer_hz = 6; min_gap = 0", "triggers",
-        "triggers 1 and 2 come 0 ticks apart, and 1 is required; up to 5 triggers keep that"),
+        "triggers 1 and 2 come 0 ticks apart, and 1 is required; 5 triggers keep that"),
     (TRAPEZOID, "triggers = 2; min_gap = 0.5", "triggers",
         "triggers 0 and 1 come 375 ticks apart, and 500 are required; 1 trigger keeps that"),
     (LEAF, "triggers = 5; min_gap = 1.2", "triggers",
-        "triggers 0 and 1 come 1.1 ms apart, and 1.2 ms is required; up to 4 triggers keep that"),
+        "triggers 0 and 1 come 1.1 ms apart, and 1.2 ms is required; 4 triggers keep that"),
     // 0.1 s is 100 ticks, though no binary fraction is 0.1; and 99.9 ticks need 100, 100.1 need 101.
     (BOX, "triggers = 10; min_gap = 0.1", "", ""),
     (BOX, "triggers = 10; min_gap = 0.099", "", ""),
@@ -177,18 +177,18 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
         the shutter is in the light's path)"),
     (BOX, "pulse = 0.2", "pulse",
         "pulses of 200 ticks: pulses 0 and 1 come 50 ticks apart, and 100 are required; those of up to 150 \
-        ticks fit, or up to 3 triggers keep that"),
+        ticks fit, or 3 triggers keep that"),
     (BOX, "pulse = 0.3", "pulse",
         "pulses of 300 ticks: pulses 0 and 1 overlap by 50 ticks, and 100 are required; those of up to 150 \
-        ticks fit, or up to 2 triggers keep that"),
+        ticks fit, or 2 triggers keep that"),
     (BOX, "pulse = 1e30", "pulse",
         "pulses of 4294967295 ticks: pulses 0 and 1 overlap by 4294967045 ticks, and 100 are required; \
         those of up to 150 ticks fit"),
     (BOX, "duty = 0.8", "triggers",
-        "pulses 0 and 1 come 50 ticks apart, and 100 are required; up to 2 triggers keep that; a smaller \
+        "pulses 0 and 1 come 50 ticks apart, and 100 are required; 2 triggers keep that; a smaller \
         duty leaves more"),
     (BOX, "duty = 0.5; min_pulse = 0.2", "triggers",
-        "pulse 0 lasts 125 ticks, and 200 are required; up to 2 triggers keep that; a \
+        "pulse 0 lasts 125 ticks, and 200 are required; 2 triggers keep that; a \
         greater duty lasts longer"),
     (BOX, "duty = 1e-9", "triggers",
         "pulse 0 lasts 0 ticks, and 1 is required; no number of triggers keeps that; a greater duty lasts \
