@@ -19,13 +19,14 @@ pub(crate) const LEAST_ERROR: i64 = 1 << 12;
 
 /// A polynomial of the place `p`, which counts as 0 to 1 here: `c[0] p + c[1] p² + ...`.
 pub(crate) struct Series<'a, const N: usize> {
-    /// The coefficients, in `2^shift`. The sum of their sizes is below 2⁶³.
+    /// The coefficients, in `2^shift`. No sum of Horner's rule reaches 2⁶³ (proofs/search.py).
     pub(crate) c: &'a [i64; N],
     pub(crate) shift: u32,
 }
 
 impl<const N: usize> Series<'_, N> {
-    /// The value at a place; low by less than `6 · 2^shift` times the place, and 1.
+    /// The value at a place; low by less than `3 (N - 1) 2^shift` times the place, and 1.
+    // proofs/search.py
     #[inline(always)]
     pub(crate) const fn at(&self, p: u64) -> i64 {
         let (mut sum, mut k) = (self.c[N - 1], N - 1);

@@ -24,9 +24,8 @@ pub(crate) struct Candidate {
     pub(crate) step: f64,
     /// A bound of the polynomial's slope, in steps for a width.
     pub(crate) slope_bound_steps: f32,
-    /// What rounding adds to its time, in steps: Horner's; a unit of time, to which the side's end is cut; and two
-    /// units, by which `Moment::in_units` may cut the time of a neighbour that is searched, and which has to stay in
-    /// order.
+    /// What rounding adds to its time, in steps: Horner's, and a unit of time, to which the side's end is cut. A
+    /// neighbour that is searched needs no more to stay in order (proofs/search.py).
     pub(crate) truncation_steps: f32,
 }
 
@@ -78,7 +77,7 @@ pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Op
         middle_time: middle as f64 * power_of_two_f64(view.exposure.units().exponent),
         step,
         slope_bound_steps: slope_bound / step as f32,
-        truncation_steps: HALF_TRUNCATION + 3.0 / factor as f32,
+        truncation_steps: HALF_TRUNCATION + 1.0 / factor as f32,
     })
 }
 

@@ -15,9 +15,10 @@ pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// least an ulp of the lesser one apart.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// How far off a fraction may be in a look-up, since joins are rounded.
+/// How far off a fraction may be in a look-up, since joins are rounded: next to a ramp with nearly all of the exposure
+/// by three roundings of an `f64`, as the area has two.
 // proofs/certificate.py
-pub(crate) const JOIN_OFF: f32 = 1.0 / (1u64 << 54) as f32;
+pub(crate) const JOIN_OFF: f32 = 3.0 / (1u64 << 53) as f32;
 /// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 512 times as great, with 60
 /// roundings of an `f64`.
 // proofs/certificate.py
