@@ -152,7 +152,8 @@ lacks_targets() {
     done
     return 1
 }
-if lacks_targets && command -v rustup >/dev/null; then
+# Not again where it could not, and Debian's compiler was taken.
+if lacks_targets && [ ! -e "$compiler.ready" ] && command -v rustup >/dev/null; then
     say "rustup target add ${targets[*]} ..."
     rustup --quiet target add "${targets[@]}" >&2 || say "rustup cannot fetch them"
 fi
