@@ -6,7 +6,6 @@ mod design;
 mod fit;
 mod fit_many;
 mod input;
-mod kept;
 mod mark;
 mod output;
 mod plan;

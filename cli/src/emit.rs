@@ -11,9 +11,9 @@ mod rust;
 pub use name::{identifier, module};
 use serde::Deserialize;
 
-use crate::facts;
+use crate::facts::{self, Facts};
 use crate::lamp::{Lamp, SetUp};
-use crate::planned::Planned;
+use crate::plan::Plan;
 use crate::set_up::doses;
 
 /// A form that a plan can be emitted in.
@@ -47,7 +47,7 @@ impl Form {
 ///
 /// # Errors
 /// A plan that lacks what hardware needs, and a curve that is not there or for which the form has no place.
-pub fn emit(form: Form, name: &str, plan: &Planned, curve: bool) -> Result<String, String> {
+pub fn emit(form: Form, name: &str, plan: &Plan, curve: bool) -> Result<String, String> {
     is_ready(form, plan, curve)?;
     Ok(match form {
         Form::Rust => rust::module(name, plan, curve),
@@ -62,7 +62,7 @@ pub fn emit(form: Form, name: &str, plan: &Planned, curve: bool) -> Result<Strin
 ///
 /// # Errors
 /// What [`emit`] refuses of any of them, and plans that do not go together.
-pub fn several(form: Form, name: &str, plans: &[(String, Planned)], curve: bool) -> Result<String, String> {
+pub fn several(form: Form, name: &str, plans: &[(String, Plan)], curve: bool) -> Result<String, String> {
     for (name, plan) in plans {
         is_ready(form, plan, curve).map_err(|reason| format!("{name}: {reason}"))?;
     }
@@ -79,11 +79,11 @@ pub fn several(form: Form, name: &str, plans: &[(String, Planned)], curve: bool)
 }
 
 /// Has the plan all that the form needs?
-fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
+fn is_ready(form: Form, plan: &Plan, curve: bool) -> Result<(), String> {
     if curve && form != Form::Rust {
         return Err("--curve: it is the crate's, and goes with --emit rust".into());
     }
-    if curve && plan.plan().is_none() {
+    if curve && plan.curve.is_none() {
         return Err("--curve: the scene has trigger times and no curve".into());
     }
     let mut lacks = Vec::new();
@@ -93,7 +93,10 @@ fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
     if !plan.timer.is_given {
         lacks.push("timer_hz = ...       # your timer's rate, in Hz".into());
     }
-    if plan.delay.is_some() && falls(plan).is_none() {
+    if plan.min_gap.is_none() {
+        lacks.push("min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing".into());
+    }
+    if plan.sync.delay.is_some() && falls(plan).is_none() {
         lacks.push("sync_falls = ...     # true, or false if the delay counts from an edge that rises".into());
     }
     if lacks.is_empty() {
@@ -101,20 +104,20 @@ fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
     }
     let lines: String = lacks.iter().map(|line| format!("\n  {line}")).collect();
     Err(format!(
-        "hardware needs what only you know; write it into the scene, or say --set-up, --timer-hz, --sync-falls:{lines}"
+        "hardware needs what only you know; write it below [flashes], or say --set-up, --timer-hz, --min-gap, --sync-falls:{lines}"
     ))
 }
 
 /// The lines by which a scene can tell its set-up, and what comes of each.
-fn set_ups(planned: &Planned) -> Vec<String> {
+fn set_ups(plan: &Plan) -> Vec<String> {
     let emulated = "set_up = \"emulated\"  # the camera's own shutter stays open";
     let in_path = "set_up = \"in_path\"   # this shutter is in the light's path";
-    let Some(plan) = planned.plan() else {
+    if plan.curve.is_none() {
         return vec![
             emulated.into(),
             "                     # in the light's path it needs a curve: `shutter fit --model free`".into(),
         ];
-    };
+    }
     match plan.lamp {
         Lamp::Doses { .. } => vec![format!("{in_path}; duty is for that alone")],
         Lamp::FullyOpen => vec![format!("{in_path}; fully_open is for that alone")],
@@ -131,7 +134,7 @@ fn set_ups(planned: &Planned) -> Vec<String> {
 }
 
 /// What rows must have in common: the timer; an array's elements also what they tell, and names of their own.
-fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
+fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
         let [a, b] = [one.timer, plan.timer];
@@ -144,8 +147,8 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
             continue;
         }
         let [a, b] = [one, plan];
-        if a.delay.is_some() != b.delay.is_some() {
-            let (has, lacks) = if a.delay.is_some() { (first, name) } else { (name, first) };
+        if a.sync.delay.is_some() != b.sync.delay.is_some() {
+            let (has, lacks) = if a.sync.delay.is_some() { (first, name) } else { (name, first) };
             return Err(format!("delay: {has} has one and {lacks} has none; an array needs all or none"));
         }
         let differ = format!("{first} and {name} differ; an array is for one");
@@ -170,9 +173,9 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
 const MADE_BY: &str = concat!("Made by `shutter plan` ", env!("CARGO_PKG_VERSION"));
 
 /// The facts, a line each, as a comment.
-fn comment(start: &str, name: &str, plan: &Planned) -> String {
+fn comment(start: &str, name: &str, plan: &Plan) -> String {
     let mut text = format!("{start}{MADE_BY}.\n{}\n", start.trim_end());
-    for (what, fact) in facts::lines(name, plan) {
+    for (what, fact) in Facts::new(plan).lines(name) {
         text += &format!("{start}{what:11}  {}\n", name::shown(&fact));
     }
     text
@@ -193,38 +196,38 @@ fn rows(items: impl Iterator<Item = String>) -> String {
 }
 
 /// What the delay is, as a module or a header says it.
-fn delay(plan: &Planned) -> &'static str {
-    match plan.lag {
-        Some(lag) if lag.ticks > 0 => {
-            "No delay is left: the lamp's lag is longer, and the rest is taken off the ticks."
-        }
-        Some(_) => "From the edge of the camera's sync to the start of opening, less the lamp's lag.",
-        None => "From the edge of the camera's sync to the start of opening.",
+fn delay(plan: &Plan) -> &'static str {
+    match (plan.sync.early, plan.sync.lag) {
+        (1.., None) => "None: the shutter opens before the edge of the camera's sync, and ticks count from that.",
+        (1.., _) => "No delay is left: the lamp's lag is longer, and the rest is taken off the ticks.",
+        (0, Some(_)) => "From the edge of the camera's sync to the start of opening, less the lamp's lag.",
+        (0, None) => "From the edge of the camera's sync to the start of opening.",
     }
 }
 
 /// From where the ticks of all these count.
-fn origin<'a>(mut plans: impl Iterator<Item = &'a Planned>) -> &'static str {
-    match plans.any(|plan| plan.delay.is_some() && plan.lag.is_some()) {
+fn origin<'a>(mut plans: impl Iterator<Item = &'a Plan>) -> &'static str {
+    let is_moved = |plan: &Plan| plan.sync.delay.is_some() && (plan.sync.lag.is_some() || plan.sync.early > 0);
+    match plans.any(is_moved) {
         true => "counted from the end of the delay",
         false => "counted from the start of opening",
     }
 }
 
 /// Which edge of the sync counts, if the scene tells.
-fn falls(plan: &Planned) -> Option<bool> {
-    plan.delay?.falls
+fn falls(plan: &Plan) -> Option<bool> {
+    plan.sync.delay?.falls
 }
 
-fn has_pulses(plan: &Planned) -> bool {
-    plan.plan().is_some_and(|plan| plan.lamp.has_pulses())
+fn has_pulses(plan: &Plan) -> bool {
+    plan.lamp.has_pulses()
 }
 
-fn ticks(plan: &Planned) -> impl ExactSizeIterator<Item = String> {
+fn ticks(plan: &Plan) -> impl ExactSizeIterator<Item = String> {
     plan.rows().into_iter().map(|row| row.ticks.to_string())
 }
 
-fn pulses(plan: &Planned) -> impl Iterator<Item = (u32, u32)> {
+fn pulses(plan: &Plan) -> impl Iterator<Item = (u32, u32)> {
     plan.rows().into_iter().filter_map(|row| row.on_ticks.zip(row.off_ticks))
 }
 

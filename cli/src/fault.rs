@@ -1,20 +1,24 @@
-//! What is wrong with a scene, and where.
+//! What is wrong with a scene, and where: one table of messages, each with its code and, below, what would help.
 
 use std::fmt;
 
+use serde::Serialize;
 use shutter_curve::{CurveError, ScheduleError};
 use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count, short};
 use thiserror::Error;
-use toml::Spanned;
+
+use crate::scene::{Key, place};
 
 /// The digits of an inner control number: all that `f32` keeps.
 pub(crate) const DIGITS: i32 = 9;
 
-/// What is wrong with a scene, and at which byte of its text, where that is known.
-#[derive(Debug)]
+/// What is wrong with a scene.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
-    /// The byte of the text.
+    /// The key whose value it is about; empty where it is about none.
+    pub key: Key,
+    /// The byte of the text, where it is no value's.
     pub at: Option<usize>,
     /// What is wrong.
     pub what: Box<What>,
@@ -25,30 +29,32 @@ pub struct Fault {
 }
 
 impl Fault {
-    pub(crate) fn at<T>(value: &Spanned<T>, what: impl Into<What>) -> Self {
-        Self::of(Some(value.span().start), what)
-    }
-
-    pub(crate) fn of(at: Option<usize>, what: impl Into<What>) -> Self {
-        Self { at, what: Box::new(what.into()), notes: Vec::new(), inner: None }
+    pub(crate) fn new(key: Key, what: impl Into<What>) -> Self {
+        Self { key, at: None, what: Box::new(what.into()), notes: Vec::new(), inner: None }
     }
 
     /// What is wrong, in words.
     pub fn reason(&self) -> String {
-        self.what.to_string()
+        match self.name() {
+            "" => self.what.to_string(),
+            name => format!("{name}: {}", self.what),
+        }
     }
 
-    /// The number of its line, from 1, and the line.
-    pub fn line<'a>(&self, text: &'a str) -> Option<(usize, &'a str)> {
-        let line = text.get(..self.at?)?.matches('\n').count();
-        Some((line + 1, text.lines().nth(line).unwrap_or_default()))
+    /// The key without its table.
+    pub fn name(&self) -> &str {
+        self.key.rsplit('.').next().unwrap_or_default()
     }
 
     /// `file:line: reason`, the line itself below it, and the notes.
     pub fn locate(&self, file: &str, text: &str) -> String {
-        let reason = &self.what;
-        let mut told = match self.line(text) {
-            Some((number, line)) => format!("{file}:{number}: {reason}\n  {number} | {line}"),
+        let reason = self.reason();
+        let mut told = match self.at.or_else(|| place(text, self.key)).and_then(|at| text.get(..at)) {
+            Some(before) => {
+                let line = before.matches('\n').count();
+                let (number, line) = (line + 1, text.lines().nth(line).unwrap_or_default());
+                format!("{file}:{number}: {reason}\n  {number} | {line}")
+            }
             None => format!("{file}: {reason}"),
         };
         for note in &self.notes {
@@ -58,8 +64,8 @@ impl Fault {
     }
 }
 
-/// So many ticks, told as a time where nobody has given the timer's rate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// So many ticks, told in the scene's unit, and as ticks where the timer's rate is given.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ticks {
     pub(crate) count: i64,
     pub(crate) hz: u32,
@@ -71,15 +77,6 @@ impl Ticks {
     /// How long they last.
     pub fn seconds(self) -> f64 {
         self.count as f64 / f64::from(self.hz)
-    }
-
-    /// The same, as what is required.
-    fn required(self) -> String {
-        match (self.is_given, self.count) {
-            (false, _) => format!("{self} is required"),
-            (true, 1) => "1 is required".into(),
-            (true, ticks) => format!("{ticks} are required"),
-        }
     }
 
     /// How far the thing `i` and the next one are apart.
@@ -94,15 +91,16 @@ impl Ticks {
 
 impl fmt::Display for Ticks {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(&match self.is_given {
-            true => count(self.count.unsigned_abs(), "tick"),
-            false => self.unit.show(self.seconds().abs()),
-        })
+        let time = self.unit.show(self.seconds().abs());
+        match self.is_given {
+            true => write!(out, "{time} ({})", count(self.count.unsigned_abs(), "tick")),
+            false => out.write_str(&time),
+        }
     }
 }
 
 /// Two neighbours that come too close.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Pair {
     /// The first.
     pub first: usize,
@@ -114,11 +112,11 @@ pub struct Pair {
 
 impl Pair {
     fn told(&self, things: &str) -> String {
-        format!("{}, and {}", self.gap.apart(things, self.first), self.least.required())
+        format!("{}, and {} is required", self.gap.apart(things, self.first), self.least)
     }
 }
 
-/// What is wrong. A page has words of its own, by the codes.
+/// What is wrong.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[cfg_attr(
@@ -131,104 +129,113 @@ pub enum What {
     /// What only a text can have wrong.
     #[error("{0}")]
     Text(String),
+    #[error("it is required")]
+    Missing,
     #[error("{0}")]
     Curve(#[from] CurveError),
     #[error("{error}; it lasts {}", .unit.show(*.seconds))]
     Lasts { error: CurveError, seconds: f64, unit: Unit },
     #[error("{error}; it is {}", short(*.number, DIGITS))]
     Inner { error: CurveError, number: f64 },
-    #[error("{key}: it is beyond f32 (3.4e38 s)")]
-    Beyond { key: &'static str },
-    #[error(
-        "{key}: f32 is off by {} % of the interval here; count the times from nearer to open_start",
-        short(*.percent, 2)
-    )]
-    Lost { key: &'static str, percent: f64 },
-    #[error("{key}: a finite number is required")]
-    Finite { key: &'static str },
-    #[error("{key}: more than 0 is required")]
-    Positive { key: &'static str },
-    #[error("{key}: 0 or more is required")]
-    NotNegative { key: &'static str },
-    #[error("{key}: a whole number from 1 to {most} is required")]
-    Whole { key: &'static str, most: u32 },
-    #[error("shutteropening: 8 numbers are required, not {0}")]
+    #[error("it is beyond f32 (3.4e38 s)")]
+    Beyond,
+    #[error("f32 is off by {} % of the interval here; count the times from nearer to open_start", short(*.percent, 2))]
+    Lost { percent: f64 },
+    #[error("a finite number is required")]
+    Finite,
+    #[error("more than 0 is required")]
+    Positive,
+    #[error("0 or more is required")]
+    NotNegative,
+    #[error("a whole number from 1 to {most} is required")]
+    Whole { most: u32 },
+    #[error("8 numbers are required, not {0}")]
     NotEight(usize),
-    #[error("timer_hz: a rate from 1 to 4294967295 is required")]
+    #[error("a rate from 1 to 4294967295 is required")]
     Rate,
-    #[error("timer_hz: the interval is longer than 2^31 ticks; up to {most} Hz it is not")]
+    #[error("the interval is longer than 2^31 ticks; up to {most} Hz it is not")]
     RateTooHigh { most: u32 },
-    #[error("timer_hz: {0}")]
+    #[error("{0}")]
     Schedule(ScheduleError),
-    #[error("timer_bits: 16 or 32 is required")]
+    #[error("16 or 32 is required")]
     Bits,
     #[error(
-        "timer_bits: the frame ends at tick {ticks}, and with {bits} bits it may end at {most} at the latest; \
-         a prescaler of {by} fits: timer_hz = {}",
+        "the frame ends at tick {ticks}, and with {bits} bits it may end at {most} at the latest; a prescaler of {by} \
+         fits: timer_hz = {}",
         short(*.hz, 10)
     )]
     Wraps { ticks: f64, bits: u32, most: f64, by: f64, hz: f64 },
-    #[error("fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses")]
+    #[error("it is for flashes whose length is the lamp's own, and this scene makes pulses")]
     FullyOpenPulses,
-    #[error("fully_open: this shutter begins to close as soon as it is open")]
+    #[error("this shutter begins to close as soon as it is open")]
     FullyOpenNever,
-    #[error("fully_open: {EMULATED}flashes come at the triggers")]
+    #[error("{EMULATED}flashes come at the triggers")]
     FullyOpenEmulated,
-    #[error("duty: {EMULATED}`pulse` makes equal pulses")]
+    #[error("{EMULATED}`pulse` makes equal pulses")]
     DutyEmulated,
     #[error(
-        "duty and pulse: a scene has one of them (pulse where the curve is emulated, duty where the shutter is in the \
-         light's path)"
+        "a scene has `duty` or `pulse` (pulse where the curve is emulated, duty where the shutter is in the light's \
+         path)"
     )]
     DutyAndPulse,
-    #[error("duty: above 0 and at most 1 is required")]
+    #[error("above 0 and at most 1 is required")]
     Duty,
-    #[error("pulse: it is less than half a tick of {hz} Hz")]
+    #[error("it is less than half a tick of {hz} Hz")]
     PulseOfNoTick { hz: u32 },
-    #[error("min_pulse: it goes with duty, which makes pulses of many lengths")]
+    #[error("it goes with duty, which makes pulses of many lengths")]
     MinPulse,
-    #[error("delay_spread: 0 or more is required, and a delay")]
+    #[error("0 or more is required, and a delay")]
     Spread,
-    #[error("sync_falls: it goes with a delay")]
+    #[error("it goes with a delay")]
     Falls,
-    #[error("delay: 0 or more is required; an edge cannot trigger what comes before it")]
-    Delay,
-    #[error("delay: the frame ends more than 2^31 ticks after the edge; with up to {most} ticks of delay it does not")]
+    #[error("the frame ends more than 2^31 ticks after the edge; with up to {most} ticks of delay it does not")]
     DelayTooLong { most: f64 },
+    /// So many triggers come before the edge, or before where ticks count; what keeps all behind it.
     #[error(
-        "lamp_lag: the first trigger would come {} before {}; a lag of {} is the most",
+        "{} {} before {}{}",
+        if *.few == 1 { "trigger 0 comes".into() } else { format!("triggers 0 to {} come, the first", .few - 1) },
         .unit.show(*.by),
         if *.by_edge { "the edge of the sync" } else { "the start of opening, from where ticks count without a delay" },
-        .unit.show(*.most)
+        ways(.most, .fully_open, .by_edge, .lag.map(|lag| unit.show(lag)), .is_emulated)
     )]
-    Lag { by: f64, most: f64, by_edge: bool, unit: Unit },
+    BeforeEdge {
+        few: usize,
+        by: f64,
+        by_edge: bool,
+        most: Option<u32>,
+        fully_open: bool,
+        lag: Option<f64>,
+        is_emulated: bool,
+        unit: Unit,
+    },
     #[error("{}; {}", .pair.told("triggers"), keep(.most))]
     Close { pair: Pair, most: Option<u32> },
     #[error("{}; {}; a smaller duty leaves more", .pair.told("pulses"), keep(.most))]
     DosesClose { pair: Pair, most: Option<u32> },
-    #[error("pulse {i} lasts {lasts}, and {}; {}; a greater duty lasts longer", .least.required(), keep(.most))]
+    #[error("pulse {i} lasts {lasts}, and {least} is required; {}; a greater duty lasts longer", keep(.most))]
     DoseShort { i: usize, lasts: Ticks, least: Ticks, most: Option<u32> },
     #[error("pulses of {length}: {}; {}{}", reach(.pair), fitting(.longest), or_keep(.most))]
     Pulses { length: Ticks, pair: Option<Pair>, longest: Ticks, most: Option<u32> },
     #[error("the frame does not fit; {}", keep(.most))]
     Unfit { most: Option<u32> },
     #[error(
-        "set_up: what a shutter in the light's path leaves of a flash comes from its curve, and this scene has none; \
+        "what a shutter in the light's path leaves of a flash comes from its curve, and this scene has none; \
          `shutter fit --model free` writes one"
     )]
     TimesInPath,
-    #[error("trigger_times: 1 to {MOST_TRIGGERS} can be planned, not {0}")]
+    #[error("it goes with a curve, and this scene has trigger_times, as they were measured")]
+    OfCurve,
+    #[error("{asked} are asked for, and trigger_times has {has}: a fit with --triggers {asked} writes as many")]
+    TimesOther { asked: f64, has: usize },
+    #[error("1 to {MOST_TRIGGERS} can be planned, not {0}")]
     TimesCount(usize),
-    #[error("trigger_times: trigger {i} comes before open_start, from where ticks count")]
+    #[error("trigger {i} comes before open_start, from where ticks count")]
     TimesEarly { i: usize },
-    #[error(
-        "trigger_times: trigger {i} comes more than 2^31 ticks after open_start; count from nearer to it, or take a \
-         slower timer"
-    )]
+    #[error("trigger {i} comes more than 2^31 ticks after open_start; count from nearer to it, or take a slower timer")]
     TimesLate { i: usize },
-    #[error("trigger_times: trigger {} comes before trigger {i}", i + 1)]
+    #[error("trigger {} comes before trigger {i}", i + 1)]
     TimesOutOfOrder { i: usize },
-    #[error("trigger_times: {}", .0.told("triggers"))]
+    #[error("{}", .0.told("triggers"))]
     TimesClose(Pair),
 }
 
@@ -257,4 +264,19 @@ fn fitting(longest: &Ticks) -> String {
         ..=0 => "none is short enough".into(),
         _ => format!("those of up to {longest} fit"),
     }
+}
+
+/// How to go on where triggers come before the edge.
+fn ways(most: &Option<u32>, fully_open: &bool, by_edge: &bool, lag: Option<String>, is_emulated: &bool) -> String {
+    let ways = [
+        most.map(|most| match most {
+            1 => "a single trigger comes behind it".into(),
+            most => format!("all of up to {most} triggers come behind it"),
+        }),
+        fully_open.then(|| "fully_open = true (--fully-open) fires behind it, while the shutter is fully open".into()),
+        lag.map(|lag| format!("a lag of {lag} is the most")),
+        is_emulated.then(|| "an emulated curve may begin with the edge: delay = 0 below [flashes]".into()),
+        (*by_edge && !is_emulated).then(|| "an earlier contact gives more time".into()),
+    ];
+    ways.into_iter().flatten().map(|way: String| format!("; {way}")).collect()
 }

@@ -1,13 +1,13 @@
-//! A fit as a scene for `shutter plan`.
+//! A fit as the shutter of a scene.
 
-use shutter_fit::report::{because, efficiency, exposure};
+use shutter_fit::report::{because, efficiency};
 use shutter_fit::trace::Refusal;
-use shutter_fit::unit::{Unit, decimals, short, trimmed};
+use shutter_fit::unit::{Unit, count, decimals, rounded};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
 use crate::fault::{Fault, What};
-use crate::planned::Planned;
-use crate::scene::KEYS;
+use crate::plan::Plan;
+use crate::scene::{Flashes, Measured, Scene, Shutter};
 
 /// Where a scene's time 0 is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,15 +20,6 @@ pub enum Zero {
     Open,
 }
 
-/// A scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
-    /// As TOML.
-    pub text: String,
-    /// Where its time 0 is in fact: where times would be lost in rounding, time 0 moves to the start of opening.
-    pub zero: Zero,
-}
-
 /// By its rounding to `f32`, a time may be off by this share of the interval; else time 0 moves.
 const ROUNDING: f64 = 1e-6;
 /// A ramp or a plateau is at least this share of the greatest time: four times what the crate asks for.
@@ -36,32 +27,77 @@ const LEAST: f64 = 1.0 / (1 << 22) as f64;
 /// The digits of a time, counted from the interval's first.
 const DIGITS: i32 = 8;
 
-/// The fit as a scene, in this unit or the one that suits it; `name` tells in a comment where it came from. Where the
-/// results are the trace's own, the scene has their trigger times and no curve, unless a model was asked for.
+/// The fit of the trace `name` as a shutter in this unit, or the one that suits it, and where its time 0 is in fact:
+/// where times would be lost in rounding, it moves to the start of opening. Where the results are the trace's own, it
+/// has their trigger times and no curve, unless a model was asked for.
 ///
 /// # Errors
-/// Where no scene can be made of it that can be planned.
-pub fn scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Scene, Refusal> {
+/// Where it cannot be planned.
+pub fn shutter(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<(Shutter, Zero), Refusal> {
     if fit.from == From::Model || fit.reason == Reason::Asked {
-        return curve_scene(fit, name, zero, unit);
+        return curve_shutter(fit, name, zero, unit);
     }
-    planned(write_times(fit, name, zero, unit.unwrap_or(fit.unit())), zero)
+    let of = Numbers::new(fit, unit);
+    let start = if zero == Zero::Open { fit.opens } else { 0.0 };
+    let time = |seconds: f64| of.time(seconds - start);
+    let own = Shutter {
+        open_start: Some(time(fit.opens)),
+        trigger_times: Some(fit.triggers.iter().map(|trigger| time(trigger.value)).collect()),
+        ..of.shutter(fit, name)
+    };
+    planned(fit, own, zero)
 }
 
-/// The scene of the chosen model's curve, whether it explains the trace or not.
-pub fn curve_scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Scene, Refusal> {
-    let unit = unit.unwrap_or(fit.unit());
+/// The chosen model's curve, whether it explains the trace or not.
+///
+/// # Errors
+/// Where it cannot be planned.
+pub fn curve_shutter(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<(Shutter, Zero), Refusal> {
+    let of = Numbers::new(fit, unit);
     let curve = fit.best().signal.curve;
     let rounding = f64::from(f32::EPSILON) / 2.0 * curve.start.abs().max(curve.end().abs());
     let zero = if rounding > ROUNDING * curve.length() { Zero::Open } else { zero };
     let curve = if zero == Zero::Open { curve.mapped(1.0, -curve.start) } else { curve };
-    planned(write_curve(fit, name, &resolved(&curve), unit), zero)
+    let curve = resolved(&curve);
+    let [open_start, open_end, close_start, close_end] = curve.times().map(|time| Some(of.time(time)));
+    let has_ramps = fit.chosen > Kind::Trapezoid;
+    let own = Shutter {
+        open_start,
+        open_end,
+        close_start,
+        close_end,
+        shutteropening: has_ramps.then(|| inner(&curve).map(|x| to(x, 7)).to_vec()),
+        ..of.shutter(fit, name)
+    };
+    planned(fit, own, zero)
 }
 
-/// The scene, if it can be planned.
-fn planned(text: String, zero: Zero) -> Result<Scene, Refusal> {
-    match Planned::parse(&text) {
-        Ok(_) => Ok(Scene { text, zero }),
+/// What a user writes once: a table of the flashes, with what only they know left out.
+pub fn flashes(shutter: &Shutter, triggers: usize) -> String {
+    let (unit, has_curve) = (shutter.unit(), shutter.trigger_times.is_none());
+    let in_path = match has_curve {
+        true => "\n# set_up = \"in_path\"  # this shutter is in the light's path, and dims the flashes",
+        false => "; in the light's path it needs a curve (--model free)",
+    };
+    let name = unit.name();
+    format!(
+        "\n# Yours: a fit writes this table once, and leaves it as it is.\n[flashes]\nunit = \"{name}\"\n\
+         triggers = {triggers}\n\
+         # set_up = \"emulated\" # the camera's own shutter stays open, and equal flashes expose as this shutter \
+         does{in_path}\n\
+         # timer_hz = 1000000 # your timer's rate, in Hz\n\
+         # min_gap = 0.1 # {name}, what your lamp needs between two flashes\n\
+         # delay = 2.5 # {name}, if you know better than the trace; with sync_falls = true or false\n"
+    )
+}
+
+/// The shutter, if it can be planned.
+fn planned(fit: &Fit, shutter: Shutter, zero: Zero) -> Result<(Shutter, Zero), Refusal> {
+    let flashes = Flashes { triggers: Some(fit.triggers.len() as f64), ..Flashes::default() };
+    // Whether its triggers come behind the edge depends on the lamp.
+    let alone = Shutter { delay: None, delay_spread: None, sync_falls: None, ..shutter.clone() };
+    match Plan::new(&Scene { shutter: alone, flashes, is_edited: false }) {
+        Ok(_) => Ok((shutter, zero)),
         Err(fault) => Err(no_scene(&fault)),
     }
 }
@@ -72,87 +108,78 @@ pub fn no_scene(fault: &Fault) -> Refusal {
     Refusal::NoScene { reason: fault.reason(), crowded }
 }
 
-fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
-    let (title, because) = (fit.chosen.title(), because(fit));
-    let mut text = format!("# Fitted to {}: {title}, {because}.\n", shown(name));
-    if fit.from == From::Trace {
-        text += "# This curve does not explain the trace, and its triggers are not the trace's own, which `shutter \
-                 fit` without --model writes.\n";
-    }
-    text += &comments(fit, unit);
-    let places = decimals(unit.of(curve.length()), DIGITS);
-    for (key, time) in KEYS.into_iter().zip(curve.times()) {
-        text += &format!("{key} = {}\n", trimmed(unit.of(time), places));
-    }
-    if fit.chosen > Kind::Trapezoid {
-        let numbers = inner(curve).map(|x| trimmed(x, 7)).join(", ");
-        text += "# The ramps' inner control points t1 y1 t2 y2, t5 y5 t6 y6: times as fractions of the interval.\n";
-        text += &format!("shutteropening = [{numbers}]\n");
-    }
-    text += &delay::line(fit.delay.as_ref(), unit, places);
-    text += &format!("triggers = {}\n", fit.triggers.len());
-    text + &asked(fit, unit, true)
+/// A fit's numbers as a scene has them.
+struct Numbers {
+    unit: Unit,
+    places: usize,
 }
 
-/// The trace's own triggers.
-fn write_times(fit: &Fit, name: &str, zero: Zero, unit: Unit) -> String {
-    let curve = &fit.best().signal.curve;
-    let places = decimals(unit.of(curve.length()), DIGITS);
-    let zero = if zero == Zero::Open { fit.opens } else { 0.0 };
-    let time = |seconds: f64| trimmed(unit.of(seconds - zero), places);
-    let model = fit.chosen.name();
-    let mut text = format!(
-        "# Measured in {}: no model explains the trace, so these are its own trigger times, without a curve.\n\
-         # `--model {model}` writes the curve that comes nearest.\n",
-        shown(name),
-    );
-    text += &comments(fit, unit);
-    text += &format!("open_start = {}\ntrigger_times = [\n", time(fit.opens));
-    for few in fit.triggers.chunks(8) {
-        let few: Vec<String> = few.iter().map(|trigger| time(trigger.value)).collect();
-        text += &format!("    {},\n", few.join(", "));
+impl Numbers {
+    fn new(fit: &Fit, unit: Option<Unit>) -> Self {
+        let unit = unit.unwrap_or(fit.unit());
+        Self { unit, places: decimals(unit.of(fit.best().signal.curve.length()), DIGITS) }
     }
-    text += "]\n";
-    text += &delay::line(fit.delay.as_ref(), unit, places);
-    text + &asked(fit, unit, false)
+
+    fn time(&self, seconds: f64) -> f64 {
+        to(self.unit.of(seconds), self.places)
+    }
+
+    /// All but the curve or the triggers.
+    fn shutter(&self, fit: &Fit, name: &str) -> Shutter {
+        let delay = fit.delay.as_ref();
+        Shutter {
+            unit: Some(self.unit),
+            delay: delay.map(|delay| self.time(delay.mean())),
+            delay_spread: delay.and_then(|it| it.spread()).map(|spread| rounded(self.unit.of(spread), 2)),
+            sync_falls: delay.and_then(|delay| delay.switch).map(|switch| switch.falls()),
+            nominal: fit.nominal.map(|it| rounded(self.unit.of(it), 7)),
+            measured: Some(measured(fit, name)),
+            ..Shutter::default()
+        }
+    }
 }
 
-/// What was read, and what came of it; below that, the unit.
-fn comments(fit: &Fit, unit: Unit) -> String {
-    let mut text = String::new();
-    if let Some(reading) = &fit.reading {
-        text += &format!("# Read: {}.\n", shown(&reading.to_string()));
-    }
-    if let Some(switch) = fit.delay.as_ref().and_then(|delay| delay.switch) {
-        text += &format!("# Sync: it {}.\n", delay::switch(&switch));
-    }
-    text += &format!("# Exposure {}, efficiency {}, standard errors behind ±.\n", exposure(fit), efficiency(fit),);
-    for warning in &fit.warnings {
-        text += &format!("# Warning: {warning}.\n");
-    }
-    text + &format!("unit = \"{}\"\n", unit.name())
-}
-
-/// On one line.
-fn shown(text: &str) -> String {
-    text.replace(|c: char| c.is_control(), "?")
-}
-
-/// What is not measured: the lines that its user has to write, the lamp's gap, and what the speed is called.
-fn asked(fit: &Fit, unit: Unit, has_curve: bool) -> String {
-    let nominal = fit.nominal.map(|it| format!("nominal = {}\n", short(unit.of(it), 7)));
-    let in_path = match has_curve {
-        true => "\n# set_up = \"in_path\" # this shutter is in the light's path, and dims the flashes",
-        false => "; in the light's path it needs a curve (--model free)",
+/// What was read, and what came of it.
+fn measured(fit: &Fit, name: &str) -> Measured {
+    let (unit, delay) = (fit.unit(), fit.delay.as_ref());
+    let error = |seconds: f64| rounded(unit.of(seconds), 2);
+    let places = decimals(unit.of(fit.exposure.value), DIGITS);
+    let model = match (fit.from, fit.reason) {
+        (From::Trace, Reason::Asked) => {
+            format!("{}, as asked, though it does not explain the trace", fit.chosen.title())
+        }
+        (From::Trace, _) => {
+            let times = count(fit.triggers.len() as u64, "trigger");
+            format!("none explains the trace: its own {times}; --model {} writes the nearest curve", fit.chosen.name())
+        }
+        _ => format!("{}, {}", fit.chosen.title(), because(fit)),
     };
-    format!(
-        "# set_up = \"emulated\" # the camera's own shutter stays open, and equal flashes expose as this shutter \
-         does{in_path}\n\
-         # timer_hz = ... # your timer's rate, in Hz\n\
-         min_gap = 0 # {}, what your lamp needs between two flashes\n{}",
-        unit.name(),
-        nominal.unwrap_or_default()
-    )
+    Measured {
+        trace: one_line(name),
+        read: fit.reading.as_ref().map(|reading| one_line(&reading.to_string())),
+        model,
+        unit,
+        exposure: to(unit.of(fit.exposure.value), places),
+        exposure_error: error(fit.exposure.error),
+        peak: (fit.peak < 1.0).then_some(rounded(fit.peak, DIGITS)),
+        efficiency: efficiency(fit),
+        sync: delay.and_then(|it| it.switch).map(|switch| one_line(&delay::switch(&switch))),
+        delay_error: delay.map(|it| error(it.error())),
+        trigger_error: delay.map(|it| error(it.trigger_error())),
+        delay_worst: delay.and_then(|it| it.worst()).map(error),
+        shots: delay.map(|it| it.shots.len()),
+        warnings: fit.warnings.iter().map(|warning| one_line(&warning.to_string())).collect(),
+        checksum: None,
+    }
+}
+
+/// `x` to so many decimals.
+fn to(x: f64, places: usize) -> f64 {
+    format!("{x:.places$}").parse().unwrap_or(x) + 0.0
+}
+
+fn one_line(text: &str) -> String {
+    text.replace(|c: char| c.is_control(), "?")
 }
 
 /// The curve without the ramps, or the plateau, that are too short for `f32`.

@@ -1,23 +1,22 @@
 //! From a camera's shutter to the ticks at which a firmware triggers.
 //!
-//! A scene (text in TOML) becomes a [`plan::Plan`]. A measured trace becomes a [`shutter_fit::Fit`], and that a scene.
+//! A [`scene::Scene`] becomes a [`plan::Plan`], and that [`facts::Facts`], which all forms render. A measured trace becomes
+//! a [`shutter_fit::Fit`], and that a scene's shutter.
 //!
 //! Everything here but the `command` is plain functions without input, output or a terminal, and builds for
 //! `wasm32-unknown-unknown` without the default features.
 
 #[cfg(feature = "terminal")]
 pub mod command;
-pub mod common;
-pub mod delay;
 pub mod emit;
 pub mod facts;
 pub mod fault;
 pub mod fitted;
+mod frames;
 pub mod lamp;
 #[cfg(feature = "terminal")]
 pub mod picture;
 pub mod plan;
-pub mod planned;
 #[cfg(feature = "terminal")]
 pub mod report;
 pub mod scene;
@@ -25,5 +24,5 @@ pub mod set_up;
 pub mod shape;
 #[cfg(feature = "terminal")]
 pub mod speeds;
+pub mod sync;
 pub mod timer;
-pub mod times;

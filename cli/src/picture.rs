@@ -13,9 +13,8 @@ use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, VERMILION, pen, pictur
 use shutter_fit::unit::{count, short};
 
 use crate::lamp::{FullyOpen, Lamp};
-use crate::plan::{Plan, Trigger};
-use crate::planned::Planned;
-use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, graph, is_near, knob, lit, sync, time_range};
+use crate::plan::{Curve, Plan};
+use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, graph, is_near, knob, lit, time_range};
 pub use set_ups::set_ups;
 pub use trace::trace;
 
@@ -27,27 +26,24 @@ const OPENNESS: i32 = 330;
 const TICK: f64 = 0.04;
 
 /// The plan of the scene `name`, as an SVG.
-pub fn svg(name: &str, planned: &Planned) -> Result<String, Box<dyn Error>> {
-    let plan = match planned {
-        Planned::Curve(plan) => plan,
-        Planned::Times(times) => return times::svg(name, times),
-    };
+pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
+    let Some(curve) = &plan.curve else { return times::svg(name, plan) };
     let title = format!("Openness and exposure of the shutter {name} over time, with its triggers");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let (upper, lower) = rest.split_vertically(OPENNESS * SCALE);
-        write_heading(&heading, name, plan)?;
-        draw_openness(&upper, plan)?;
-        draw_cdf(&lower, plan)
+        write_heading(&heading, name, plan, curve)?;
+        draw_openness(&upper, plan, curve)?;
+        draw_cdf(&lower, plan, curve)
     })
 }
 
-fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
+fn write_heading(area: &Area, name: &str, plan: &Plan, curve: &Curve) -> Drawn {
     let unit = plan.unit;
     let facts = format!(
         "exposure {}, efficiency {} %, {}",
-        unit.show(plan.curve.exposure()),
-        short(100.0 * f64::from(plan.curve.efficiency()), 4),
+        unit.show(curve.shutter.exposure()),
+        short(100.0 * f64::from(curve.shutter.efficiency()), 4),
         match plan.triggers.len() {
             n if plan.lamp == Lamp::FullyOpen => {
                 format!("{} in equal steps while it is fully open", count(n as u64, "trigger"))
@@ -57,27 +53,28 @@ fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
         },
     );
     drawing::write_heading(area, SIZE.0, name, &facts)?;
-    legend(area, plan)
+    legend(area, plan, curve)
 }
 
 /// What the signs of the upper graph mean.
-fn legend(area: &Area, plan: &Plan) -> Drawn {
+fn legend(area: &Area, plan: &Plan, curve: &Curve) -> Drawn {
     let mut keys = vec![("openness", Key::Line), ("trigger", Key::Dot)];
     match plan.lamp {
         Lamp::Triggered | Lamp::FullyOpen => (),
         Lamp::Equal { .. } => keys.push(("lamp on", Key::Lamp)),
         Lamp::Doses { .. } => keys.push(("lamp on: equal doses", Key::Lamp)),
     }
-    if plan.shape.inner.is_some() {
+    if curve.shape.inner.is_some() {
         keys.push(("control point and its handle", Key::Handle));
     }
     drawing::legend(area, SIZE.0, &keys)
 }
 
-fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit);
-    let at = |t: f32| (unit.of(t), f64::from(curve.openness(t)));
-    let ramps = plan.shape.ramps().map(|ramps| ramps.map(|ramp| ramp.points()));
+fn draw_openness(area: &Area, plan: &Plan, Curve { shape, shutter: curve, .. }: &Curve) -> Drawn {
+    let (unit, zero) = (plan.unit, plan.origin());
+    let time = |t: f32| unit.of(f64::from(t) - zero);
+    let at = |t: f32| (time(t), f64::from(curve.openness(t)));
+    let ramps = shape.ramps().map(|ramps| ramps.map(|ramp| ramp.points()));
     let heights = ramps.iter().flatten().flatten().map(|(_, y)| f64::from(*y));
     let (low, high) = heights.fold((0.0, 1.0), |(low, high): (f64, f64), y| (low.min(y), high.max(y)));
     let room = 0.05 * (high - low);
@@ -88,21 +85,21 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
         Lamp::FullyOpen => FullyOpen::new(curve).time(i as f64 / n as f64) as f32,
         _ => curve.inverse_cdf(i as f32 / n as f32),
     };
-    let share = |i: usize| Polygon::new(below(edge(i), edge(i + 1), POINTS / n + 2, unit, at), SHARES[i % 2]);
+    let share = |i: usize| Polygon::new(below(edge(i), edge(i + 1), POINTS / n + 2, at), SHARES[i % 2]);
     graph.draw_series((0..n).map(share))?;
     graph.draw_series(pulses(plan).map(|(on, off)| match plan.lamp {
-        Lamp::Doses { .. } => Polygon::new(below(on, off, 16, unit, at), lit()),
+        Lamp::Doses { .. } => Polygon::new(below(on, off, 16, at), lit()),
         _ => {
-            let (on, off) = (unit.of(on), unit.of(off));
+            let (on, off) = (time(on), time(off));
             Polygon::new(vec![(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], lit())
         }
     }))?;
-    draw_curve(&mut graph, plan, |t| curve.openness(t))?;
+    draw_curve(&mut graph, plan, curve, |t| curve.openness(t))?;
     draw_sync(&mut graph, plan)?;
-    let marks = plan.triggers.iter().map(|trigger| at(trigger.time));
+    let marks = plan.triggers.iter().map(|trigger| at(trigger.time as f32));
     draw_triggers(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;
     for ramp in ramps.iter().flatten() {
-        let points = ramp.map(|(t, y)| (unit.of(t), f64::from(y)));
+        let points = ramp.map(|(t, y)| (time(t), f64::from(y)));
         for [end, inner] in [[points[0], points[1]], [points[3], points[2]]] {
             graph.draw_series([PathElement::new([end, inner], pen(GREY, 2.0))])?;
             graph.draw_series([end, inner].map(knob))?;
@@ -114,10 +111,10 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
 /// The edge of the camera's sync, and the delay from there to the start of opening.
 fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
     let unit = plan.unit;
-    let (Some(edge), Some(delay)) = (sync(plan), plan.delay) else { return Ok(()) };
-    let start = unit.of(plan.curve.open_start());
+    let Some(delay) = plan.sync.delay else { return Ok(()) };
+    let (edge, start) = (0.0, unit.of(delay.seconds));
     let label = chart::text(13 * SCALE, HPos::Left, VPos::Bottom);
-    let is_near = is_near(plan, edge);
+    let is_near = is_near(plan);
     let from = if is_near { edge } else { time_range(plan).start };
     if is_near {
         graph.draw_series([PathElement::new([(edge, 0.0), (edge, 1.0)], pen(INK, 2.0))])?;
@@ -136,23 +133,22 @@ fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
     Ok(())
 }
 
-fn draw_cdf(area: &Area, plan: &Plan) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit);
-    let time = format!("time ({})", unit.name());
+fn draw_cdf(area: &Area, plan: &Plan, Curve { shutter: curve, .. }: &Curve) -> Drawn {
+    let (unit, zero) = (plan.unit, plan.origin());
+    let time = drawing::time_axis(plan);
     let y = "fraction of the exposure";
     let mut graph = graph(area, plan, y, Some(&time), 0.0..1.05)?;
     let left = time_range(plan).start;
-    draw_curve(&mut graph, plan, |t| curve.cdf(t))?;
-    let marks = plan.triggers.iter().map(|mark| (unit.of(mark.time), f64::from(mark.u)));
+    draw_curve(&mut graph, plan, curve, |t| curve.cdf(t))?;
+    let marks = plan.triggers.iter().map(|mark| (unit.of(mark.time - zero), mark.u.unwrap_or_default().into()));
     // How a time is found: from the fraction to the curve, and down.
     draw_triggers(&mut graph, marks, |(t, u)| vec![(left, u), (t, u), (t, 0.0)])
 }
 
 /// When the lamp is on, in seconds.
 fn pulses(plan: &Plan) -> impl Iterator<Item = (f32, f32)> {
-    let time = |ticks| (f64::from(plan.curve.open_start()) + plan.seconds(ticks)) as f32;
-    let pulses = plan.triggers.iter().filter_map(|trigger: &Trigger| trigger.pulse);
-    pulses.map(move |(on, off)| (time(on), time(off)))
+    let time = |ticks| (plan.start + plan.seconds(ticks)) as f32;
+    plan.pulses().map(move |(on, off)| (time(on), time(off)))
 }
 
 /// A line to each mark and a dot on it; ticks at the bottom where there are too many.

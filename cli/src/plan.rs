@@ -1,89 +1,134 @@
 //! A scene's triggers, checked.
 
-use std::ops::Deref;
-
+use serde::Serialize;
 use shutter_curve::{Hz, ScheduleError, ShutterCurve};
 pub use shutter_fit::MOST_TRIGGERS;
-use shutter_fit::unit::{Unit, count};
+use shutter_fit::unit::Unit;
 
-use crate::common::Common;
 use crate::fault::{Fault, Pair, Ticks, What};
+use crate::frames::{Frames, whole_ticks};
 use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
-use crate::scene::{Scene, positive, whole};
-use crate::shape::Shape;
+use crate::scene::{Key, Measured, Scene};
+use crate::set_up::doses;
+use crate::shape::{self, Shape};
+use crate::sync::{Delay, LAST, Sync};
 use crate::timer::Timer;
 
 /// When to trigger.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trigger {
-    /// The fraction of the exposure collected by then.
-    pub u: f32,
-    /// Its exact time in seconds, rounded once.
-    pub time: f32,
+    /// The fraction of the exposure collected by then, where a curve tells.
+    pub u: Option<f32>,
+    /// Its exact time in seconds, with the digits of an `f32` where a curve tells.
+    pub time: f64,
     /// The timer's ticks after the shutter starts to open.
     pub ticks: u32,
     /// When to switch the lamp on and off, in the same ticks, where the scene asks for pulses.
     pub pulse: Option<(u32, u32)>,
 }
 
+/// A curve that triggers are planned by.
+#[derive(Clone)]
+pub struct Curve {
+    /// Its numbers.
+    pub shape: Shape,
+    /// The shutter.
+    pub shutter: ShutterCurve,
+    /// So many triggers keep what the scene asks for, and one more does not.
+    pub most: u32,
+    /// By so many ticks `f32` moves its times.
+    pub moved: f64,
+}
+
 /// A scene that can be played.
 #[derive(Clone)]
 pub struct Plan {
-    /// The curve's numbers.
-    pub shape: Shape,
-    /// The shutter.
-    pub curve: ShutterCurve,
-    /// What the lamp does.
-    pub lamp: Lamp,
-    /// So many triggers keep what the scene asks for, and one more does not.
-    pub most: u32,
+    /// By its curve, or by trigger times as they were measured.
+    pub curve: Option<Curve>,
+    /// When the shutter starts to open, in seconds of the scene.
+    pub start: f64,
+    /// From opening to closed in seconds; without a curve, to the last trigger, and a tick at least.
+    pub length: f64,
     /// In order.
     pub triggers: Vec<Trigger>,
-    common: Common,
+    /// What the lamp does.
+    pub lamp: Lamp,
+    /// What counts the ticks.
+    pub timer: Timer,
+    /// From where they count.
+    pub sync: Sync,
+    /// How the flashes meet the shutter, if the scene tells.
+    pub set_up: Option<SetUp>,
+    /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds.
+    pub min_gap: Option<f64>,
+    /// The exposure that the shutter's maker names, in seconds.
+    pub nominal: Option<f64>,
+    /// What the trace tells that the shutter comes from.
+    pub measured: Option<Measured>,
+    /// The delay of that trace, in seconds.
+    pub traced_delay: Option<f64>,
+    /// The edge that it counts from.
+    pub traced_falls: Option<bool>,
+    /// Was the shutter changed since a fit wrote it?
+    pub is_edited: bool,
+    /// The scene's unit, or the one that suits its times.
+    pub unit: Unit,
 }
 
-impl Deref for Plan {
-    type Target = Common;
-
-    fn deref(&self) -> &Common {
-        &self.common
-    }
+/// A trigger under the keys that it has in all forms.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(missing_docs, reason = "docs/firmware.md tells what they are")]
+pub struct Row {
+    pub index: usize,
+    pub u: Option<f32>,
+    pub time_s: f64,
+    pub ticks: u32,
+    pub gap_ticks: Option<u32>,
+    pub from_edge_ticks: Option<u32>,
+    pub on_ticks: Option<u32>,
+    pub off_ticks: Option<u32>,
+    pub dose: Option<f64>,
 }
 
 impl Plan {
-    /// The plan of the scene that `text` describes.
-    pub fn parse(text: &str) -> Result<Self, Fault> {
-        let scene = crate::scene::parse(text)?;
-        let mut plan = Self::new(&scene).map_err(|fault| scene.noted(fault))?;
-        plan.common.fitted.splice(..0, crate::scene::fitted(text));
-        Ok(plan)
+    /// The plan of a scene.
+    ///
+    /// # Errors
+    /// Keys that are missing or out of their range, a curve that the crate refuses, triggers that cannot be fired.
+    pub fn new(scene: &Scene) -> Result<Self, Fault> {
+        match &scene.shutter.trigger_times {
+            None => Self::by_curve(scene),
+            Some(times) => Self::by_times(scene, times),
+        }
     }
 
-    /// The plan of a scene.
-    pub fn new(scene: &Scene) -> Result<Self, Fault> {
-        let n = whole("triggers", &scene.triggers, MOST_TRIGGERS)?;
-        let (shape, curve) = scene.curve()?;
-        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
-        let until = scene.delay.as_ref().map_or(0.0, |it| scene.unit().seconds(it.get_ref().get()));
-        let timer = Timer::new(scene.timer_hz.as_ref(), scene.timer_bits.as_ref(), until + length)?;
-        let timer_hz = timer.hz;
+    /// The plan of the scene that `text` describes.
+    ///
+    /// # Errors
+    /// Those of [`Scene::parse`] and [`Plan::new`].
+    pub fn parse(text: &str) -> Result<Self, Fault> {
+        Self::new(&Scene::parse(text)?)
+    }
+
+    fn by_curve(scene: &Scene) -> Result<Self, Fault> {
+        let (shutter, flashes) = (&scene.shutter, &scene.flashes);
+        let triggers = flashes.triggers.ok_or_else(|| Fault::new("flashes.triggers", What::Missing))?;
+        let n = whole("flashes.triggers", triggers, MOST_TRIGGERS)?;
+        let (shape, curve) = shape::curve(shutter)?;
+        let (start, close) = (f64::from(curve.open_start()), f64::from(curve.close_end()));
+        let length = close - start;
+        let delay = Delay::new(scene)?;
+        let timer = Timer::new(flashes, delay.map_or(0.0, |it| it.seconds.max(0.0)) + length)?;
         // The rate is checked here, before anything is counted in ticks.
-        Lamp::Triggered
-            .frame(&curve, 0, timer_hz)
-            .map_err(|error| Fault::of(scene.timer_hz.as_ref().map(|it| it.span().start), rate(error)))?;
-        let end = (length * f64::from(timer_hz)).round();
-        let mut common = Common::new(scene, timer, length, end)?;
-        let asked = Asked::new(scene, &curve, timer_hz, common.min_gap)?;
-        let frames = Frames { curve: &curve, timer, unit: scene.unit(), end: end as i64 };
-        let frame = match frames.checked(&asked, n) {
-            Ok(frame) => frame,
-            Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
-        };
-        let first = frame.first().map_or(0, |first| first.on as u32);
-        common.starts(first, scene)?;
+        Lamp::Triggered.frame(&curve, 0, timer.hz).map_err(|error| Fault::new("flashes.timer_hz", rate(error)))?;
+        let end = (length * f64::from(timer.hz)).round();
+        let plan = Self::common(scene, timer, delay, [start, length], end)?;
+        let frames = Frames::new(scene, &curve, timer, plan.min_gap, end)?;
+        let frame = frames.checked(n).map_err(|problem| frames.told(problem, n))?;
+        plan.starts(scene, &frame.iter().map(|flash| flash.on).collect::<Vec<_>>(), Some(&frames))?;
         let trigger = |(i, flash): (u32, &Flash)| {
             let u = (i as f32 + 0.5) / n as f32;
-            let (u, time) = match asked.lamp {
+            let (u, time) = match frames.lamp {
                 Lamp::FullyOpen => {
                     let part = (f64::from(i) + 0.5) / f64::from(n);
                     let time = FullyOpen::new(&curve).time(part) as f32;
@@ -91,201 +136,223 @@ impl Plan {
                 }
                 _ => (u, curve.inverse_cdf(u)),
             };
-            let pulse = asked.lamp.has_pulses().then_some((flash.on as u32, flash.off as u32));
-            Trigger { u, time, ticks: flash.tick, pulse }
+            let pulse = frames.lamp.has_pulses().then_some((flash.on as u32, flash.off as u32));
+            Trigger { u: Some(u), time: with_its_digits(time), ticks: flash.tick, pulse }
         };
-        let moved = scene.rounding(&shape) * f64::from(timer_hz);
-        let moved = (timer.is_given && moved >= 0.5).then(|| {
-            format!(
-                "f32 moves the curve's times by up to {}; they are nearest where open_start is 0.",
-                count(moved.ceil() as u64, "tick")
-            )
-        });
         let triggers = (0..).zip(&frame).map(trigger).collect();
-        let most = frames.most(&asked, n, MOST_TRIGGERS + 1);
-        common.fitted = moved.map(|told| ("doubt", told)).into_iter().collect();
-        Ok(Self { shape, curve, lamp: asked.lamp, most, triggers, common })
+        let (lamp, most) = (frames.lamp, frames.most(n, MOST_TRIGGERS + 1));
+        let moved = shape.rounding(shutter) * f64::from(timer.hz);
+        Ok(Self { curve: Some(Curve { shape, shutter: curve, most, moved }), lamp, triggers, ..plan })
+    }
+
+    fn by_times(scene: &Scene, times: &[f64]) -> Result<Self, Fault> {
+        let (shutter, flashes) = (&scene.shutter, &scene.flashes);
+        let of_curve = [
+            ("shutter.open_end", shutter.open_end.is_some()),
+            ("shutter.close_start", shutter.close_start.is_some()),
+            ("shutter.close_end", shutter.close_end.is_some()),
+            ("shutter.shutteropening", shutter.shutteropening.is_some()),
+            ("flashes.fully_open", flashes.fully_open.is_some()),
+            ("flashes.pulse", flashes.pulse.is_some()),
+            ("flashes.duty", flashes.duty.is_some()),
+            ("flashes.min_pulse", flashes.min_pulse.is_some()),
+        ];
+        if let Some((key, _)) = of_curve.into_iter().find(|(_, is_there)| *is_there) {
+            return Err(Fault::new(key, What::OfCurve));
+        }
+        if let Some(asked) = flashes.triggers.filter(|asked| *asked != times.len() as f64) {
+            return Err(Fault::new("flashes.triggers", What::TimesOther { asked, has: times.len() }));
+        }
+        if flashes.set_up == Some(SetUp::InPath) {
+            return Err(Fault::new("flashes.set_up", What::TimesInPath));
+        }
+        let unit = shutter.unit();
+        let missing = Fault::new("shutter.open_start", What::Missing);
+        let start = finite("shutter.open_start", unit, shutter.open_start)?.ok_or(missing)?;
+        let delay = Delay::new(scene)?;
+        let last = unit.seconds(times.last().copied().unwrap_or_default());
+        let timer = Timer::new(flashes, last - start + delay.map_or(0.0, |it| it.seconds.max(0.0)))?;
+        let min_gap = not_negative("flashes.min_gap", scene.unit(), flashes.min_gap)?;
+        let gap = whole_ticks(min_gap.unwrap_or_default(), timer.hz).max(1);
+        let triggers = measured(times, unit, start, timer, gap)?;
+        let last = triggers.last().map_or(0.0, |last| last.time - start);
+        let end = triggers.last().map_or(0.0, |last| last.ticks.into());
+        let plan = Self::common(scene, timer, delay, [start, last.max(timer.seconds(1))], end)?;
+        plan.starts(scene, &triggers.iter().map(|it| it.ticks.into()).collect::<Vec<_>>(), None)?;
+        Ok(Self { triggers, ..plan })
+    }
+
+    /// What a plan by a curve and one by trigger times both have; its frame ends so many ticks after the opening.
+    fn common(
+        scene: &Scene,
+        timer: Timer,
+        delay: Option<Delay>,
+        [start, length]: [f64; 2],
+        end: f64,
+    ) -> Result<Self, Fault> {
+        let (shutter, flashes, unit) = (&scene.shutter, &scene.flashes, scene.unit());
+        let lag = not_negative("flashes.lamp_lag", unit, flashes.lamp_lag)?;
+        let sync = Sync::new(delay, lag, timer.hz, end)?;
+        timer.holds(f64::from(sync.ticks) + end)?;
+        Ok(Self {
+            curve: None,
+            start,
+            length,
+            triggers: Vec::new(),
+            lamp: Lamp::Triggered,
+            timer,
+            sync,
+            set_up: flashes.set_up,
+            min_gap: not_negative("flashes.min_gap", unit, flashes.min_gap)?,
+            nominal: positive("shutter.nominal", shutter.unit(), shutter.nominal)?,
+            measured: shutter.measured.clone(),
+            traced_delay: finite("shutter.delay", shutter.unit(), shutter.delay)?,
+            traced_falls: shutter.sync_falls,
+            is_edited: scene.is_edited,
+            unit: shutter.unit.or(flashes.unit).unwrap_or_else(|| Unit::fit(length)),
+        })
+    }
+
+    /// Does no flash, switched on after so many ticks, come before the edge?
+    fn starts(&self, scene: &Scene, on: &[i64], frames: Option<&Frames>) -> Result<(), Fault> {
+        let (early, delay) = (i64::from(self.sync.early), self.sync.delay);
+        let few = on.iter().filter(|on| **on < early).count();
+        if few == 0 {
+            return Ok(());
+        }
+        let by = self.timer.seconds((early - on[0]) as f64);
+        let is_behind = |frames: &Frames, n: u32| {
+            let frame = frames.checked(n).unwrap_or_default();
+            frame.first().is_some_and(|first| first.on >= early)
+        };
+        // Fewer triggers begin later.
+        let (mut low, mut high) = (0, on.len() as u32);
+        while let Some(frames) = frames.filter(|_| high - low > 1) {
+            let middle = low + (high - low) / 2;
+            *(if is_behind(frames, middle) { &mut low } else { &mut high }) = middle;
+        }
+        let most = (low > 0).then_some(low);
+        let is_free = !self.lamp.has_pulses() && scene.flashes.set_up != Some(SetUp::Emulated);
+        let open = frames.filter(|it| is_free && it.lamp == Lamp::Triggered).and_then(Frames::fully_open);
+        let fully_open = open.is_some_and(|open| is_behind(&open, on.len() as u32));
+        let key = match delay {
+            Some(delay) if self.sync.lag.is_none() || delay.seconds < 0.0 => delay.key,
+            _ => "flashes.lamp_lag",
+        };
+        let lag = self.sync.lag.map(|lag| lag - by).filter(|most| *most > 0.0);
+        let (by_edge, unit) = (delay.is_some(), scene.unit());
+        let is_emulated = by_edge && scene.flashes.set_up == Some(SetUp::Emulated);
+        Err(Fault::new(key, What::BeforeEdge { few, by, by_edge, most, fully_open, lag, is_emulated, unit }))
+    }
+
+    /// How long so many ticks last.
+    pub fn seconds(&self, ticks: u32) -> f64 {
+        self.timer.seconds(ticks)
     }
 
     /// From each trigger to the next, in ticks.
     pub fn gaps(&self) -> impl Iterator<Item = u32> {
         self.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks)
     }
-}
 
-/// What a scene asks of each frame, in ticks.
-struct Asked {
-    lamp: Lamp,
-    /// Between the end of one flash and the start of the next.
-    dark: u64,
-    /// What a pulse has to last.
-    lit: u64,
-}
+    /// When each pulse goes on and off, where the scene asks for pulses.
+    pub fn pulses(&self) -> impl Iterator<Item = (u32, u32)> + Clone {
+        self.triggers.iter().filter_map(|trigger| trigger.pulse)
+    }
 
-impl Asked {
-    fn new(scene: &Scene, curve: &ShutterCurve, timer_hz: u32, min_gap: f64) -> Result<Self, Fault> {
-        let unit = scene.unit();
-        let pulse = positive(unit, "pulse", scene.pulse.as_ref())?;
-        let min_pulse = positive(unit, "min_pulse", scene.min_pulse.as_ref())?;
-        let fully_open = scene.fully_open.as_ref().filter(|it| *it.get_ref());
-        if let Some(place) = fully_open.filter(|_| scene.pulse.is_some() || scene.duty.is_some()) {
-            return Err(Fault::at(place, What::FullyOpenPulses));
-        }
-        if let Some(place) = fully_open.filter(|_| curve.open_end() == curve.close_start()) {
-            return Err(Fault::at(place, What::FullyOpenNever));
-        }
-        if scene.set_up.as_ref().is_some_and(|it| *it.get_ref() == SetUp::Emulated) {
-            if let Some(place) = &scene.duty {
-                return Err(Fault::at(place, What::DutyEmulated));
+    /// From the edge of the sync, or the start of opening where there is no delay, to the end of a frame, in seconds.
+    pub fn edge_to_end(&self) -> f64 {
+        self.sync.delay.map_or(0.0, |delay| delay.seconds) + self.length
+    }
+
+    /// What the times of a reader count from: the edge of the sync where that is known, or the scene's time 0.
+    pub fn origin(&self) -> f64 {
+        self.sync.delay.map_or(0.0, |delay| self.start - delay.seconds)
+    }
+
+    /// The triggers, in order, as a firmware counts them.
+    pub fn rows(&self) -> Vec<Row> {
+        let Sync { delay, ticks: from_edge, early, .. } = self.sync;
+        let doses = self.set_up.filter(|_| self.curve.is_some()).map(|set_up| doses(set_up, self));
+        let mut last = None;
+        let row = |(index, trigger): (usize, &Trigger)| {
+            // Checked above: none comes that early, and the sums are at most 2³¹.
+            let ticks = trigger.ticks.saturating_sub(early);
+            let pulse = trigger.pulse.map(|(on, off)| (on.saturating_sub(early), off - early));
+            Row {
+                index,
+                u: trigger.u,
+                time_s: trigger.time,
+                ticks,
+                gap_ticks: last.replace(ticks).map(|last| ticks - last),
+                from_edge_ticks: delay.map(|_| from_edge + ticks),
+                on_ticks: pulse.map(|pulse| pulse.0),
+                off_ticks: pulse.map(|pulse| pulse.1),
+                dose: doses.as_ref().map(|doses| doses[index]),
             }
-            if let Some(place) = fully_open {
-                return Err(Fault::at(place, What::FullyOpenEmulated));
-            }
-        }
-        let lamp = match (&scene.pulse, &scene.duty) {
-            _ if fully_open.is_some() => Lamp::FullyOpen,
-            (Some(_), Some(duty)) => return Err(Fault::at(duty, What::DutyAndPulse)),
-            (Some(place), None) => {
-                let ticks = (pulse.unwrap_or_default() * f64::from(timer_hz)).round();
-                if ticks == 0.0 {
-                    return Err(Fault::at(place, What::PulseOfNoTick { hz: timer_hz }));
-                }
-                // The cast saturates; what is so long is refused later.
-                Lamp::Equal { ticks: ticks as u32 }
-            }
-            (None, Some(place)) => {
-                let duty = place.get_ref().get() as f32;
-                if !(duty > 0.0 && duty <= 1.0) {
-                    return Err(Fault::at(place, What::Duty));
-                }
-                Lamp::Doses { duty }
-            }
-            (None, None) => Lamp::Triggered,
         };
-        if let (Some(place), None) = (&scene.min_pulse, &scene.duty) {
-            return Err(Fault::at(place, What::MinPulse));
-        }
-        // A timer fires once a tick; a lamp that shines on needs no gap.
-        let least = u64::from(!lamp.has_pulses());
-        let dark = whole_ticks(min_gap, timer_hz).max(least);
-        let lit = match lamp {
-            Lamp::Triggered | Lamp::FullyOpen => 0,
-            Lamp::Equal { .. } => 1,
-            Lamp::Doses { .. } => whole_ticks(min_pulse.unwrap_or_default(), timer_hz).max(1),
-        };
-        Ok(Self { lamp, dark, lit })
+        self.triggers.iter().enumerate().map(row).collect()
     }
 }
 
-/// The frames of a shutter, of any number of triggers.
-struct Frames<'a> {
-    curve: &'a ShutterCurve,
-    timer: Timer,
-    unit: Unit,
-    /// The ticks until the shutter is closed.
-    end: i64,
-}
-
-/// What is wrong with a frame.
-#[derive(Clone, Copy)]
-enum Problem {
-    /// A flash and the next, with so many ticks between them.
-    Close(usize, i64),
-    /// A pulse lasts so many ticks.
-    Short(usize, i64),
-    /// The first pulse begins too early, or the last one ends too late.
-    Outside,
-}
-
-impl Frames<'_> {
-    /// The frame of `n` triggers, if it keeps what is asked for.
-    fn checked(&self, asked: &Asked, n: u32) -> Result<Vec<Flash>, Problem> {
-        // The rate is known to be good.
-        let frame = asked.lamp.frame(self.curve, n, self.timer.hz).unwrap_or_default();
-        let less = |ticks: i64, least: u64| i128::from(ticks) < i128::from(least);
-        let gap = |pair: &[Flash]| pair[1].on - pair[0].off;
-        if let Some(i) = frame.windows(2).position(|pair| less(gap(pair), asked.dark)) {
-            return Err(Problem::Close(i, gap(&frame[i..])));
-        }
-        let length = |flash: &Flash| flash.off - flash.on;
-        if let Some(i) = frame.iter().position(|flash| less(length(flash), asked.lit)) {
-            return Err(Problem::Short(i, length(&frame[i])));
-        }
-        let ends = match asked.lamp {
-            Lamp::FullyOpen => FullyOpen::new(self.curve).ticks(self.timer.hz),
-            _ => (0, self.end),
-        };
-        if frame.iter().any(|flash| flash.on < ends.0 || flash.off > ends.1) {
-            return Err(Problem::Outside);
-        }
-        Ok(frame)
+/// Measured times in ticks, known to be in order and at least so many apart.
+fn measured(times: &[f64], unit: Unit, start: f64, timer: Timer, gap: u64) -> Result<Vec<Trigger>, Fault> {
+    const KEY: Key = "shutter.trigger_times";
+    let refused = |what| Err(Fault::new(KEY, what));
+    let gap = i64::try_from(gap).unwrap_or(i64::MAX);
+    if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
+        return refused(What::TimesCount(times.len()));
     }
-
-    /// So many triggers keep what is asked for, and one more does not, where `keep` do and `fail` do not.
-    fn most(&self, asked: &Asked, mut keep: u32, mut fail: u32) -> u32 {
-        // Where the openness is 1, a share of the exposure takes its own length; the answer is near what that leaves
-        // room for.
-        let lit = match asked.lamp {
-            Lamp::Equal { ticks } => ticks.into(),
-            _ => asked.lit,
-        };
-        let room = f64::from(self.curve.exposure()) * f64::from(self.timer.hz);
-        let mut next = (room / asked.dark.saturating_add(lit).max(1) as f64) as u32;
-        // Away from there in growing steps, until it lies between two of them.
-        let (mut step, mut is_between) = (1, [false; 2]);
-        while fail - keep > 1 {
-            next = next.clamp(keep + 1, fail - 1);
-            let kept = self.checked(asked, next).is_ok();
-            *(if kept { &mut keep } else { &mut fail }) = next;
-            is_between[usize::from(kept)] = true;
-            next = match (is_between, kept) {
-                ([true, true], _) => keep + (fail - keep) / 2,
-                (_, true) => keep.saturating_add(step),
-                (_, false) => fail.saturating_sub(step),
-            };
-            step = step.saturating_mul(2);
+    let mut triggers: Vec<Trigger> = Vec::new();
+    for (i, time) in times.iter().enumerate() {
+        let time = finite(KEY, unit, Some(*time))?.unwrap_or_default();
+        let ticks = ((time - start) * f64::from(timer.hz)).round();
+        if time < start {
+            return refused(What::TimesEarly { i });
         }
-        keep
-    }
-
-    /// The longest equal pulse that `n` triggers leave room for, in ticks.
-    fn longest(&self, asked: &Asked, n: u32) -> i64 {
-        let ticks = Lamp::Triggered.frame(self.curve, n, self.timer.hz).unwrap_or_default();
-        let ticks: Vec<_> = ticks.iter().map(|flash| i64::from(flash.tick)).collect();
-        let dark = i64::try_from(asked.dark).unwrap_or(i64::MAX);
-        let apart = ticks.windows(2).map(|pair| (pair[1] - pair[0]).saturating_sub(dark));
-        // Half of it, rounded down, comes before its trigger.
-        let first = ticks.first().map(|first| 2 * first + 1);
-        let last = ticks.last().map(|last| 2 * (self.end - last));
-        apart.chain(first).chain(last).min().unwrap_or_default()
-    }
-}
-
-impl Problem {
-    /// What is wrong with the frame of `n` triggers, and what would help.
-    fn told(&self, scene: &Scene, frames: &Frames, asked: &Asked, n: u32) -> Fault {
-        let most = frames.checked(asked, 1).is_ok().then(|| frames.most(asked, 1, n));
-        let ticks = |count| Ticks { count, hz: frames.timer.hz, is_given: frames.timer.is_given, unit: frames.unit };
-        let [dark, lit] = [asked.dark, asked.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
-        let pair = |first, gap| Pair { first, gap: ticks(gap), least: dark };
-        let what = match (asked.lamp, *self) {
-            (Lamp::Equal { ticks: length }, problem) => {
-                let pair = match problem {
-                    Self::Close(i, gap) => Some(pair(i, gap)),
-                    _ => None,
-                };
-                let longest = ticks(frames.longest(asked, n));
-                let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
-                let what = What::Pulses { length: ticks(length.into()), pair, longest, most };
-                return Fault::of(Some(place), what);
+        if ticks > LAST {
+            return refused(What::TimesLate { i });
+        }
+        if let Some(last) = triggers.last() {
+            let by = ticks as i64 - i64::from(last.ticks);
+            if time < last.time {
+                return refused(What::TimesOutOfOrder { i: i - 1 });
             }
-            (Lamp::Doses { .. }, Self::Close(i, gap)) => What::DosesClose { pair: pair(i, gap), most },
-            (Lamp::Doses { .. }, Self::Short(i, lasts)) => What::DoseShort { i, lasts: ticks(lasts), least: lit, most },
-            (_, Self::Close(i, gap)) => What::Close { pair: pair(i, gap), most },
-            _ => What::Unfit { most },
-        };
-        Fault::at(&scene.triggers, what)
+            if by < gap {
+                let ticks = |count| Ticks { count, hz: timer.hz, is_given: timer.is_given, unit };
+                let (gap, least) = (ticks(by), ticks(gap));
+                return refused(What::TimesClose(Pair { first: i - 1, gap, least }));
+            }
+        }
+        triggers.push(Trigger { u: None, time, ticks: ticks as u32, pulse: None });
     }
+    Ok(triggers)
+}
+
+/// A time in seconds, known to be finite, if there is one.
+pub(crate) fn finite(key: Key, unit: Unit, time: Option<f64>) -> Result<Option<f64>, Fault> {
+    match time {
+        Some(time) if !time.is_finite() => Err(Fault::new(key, What::Finite)),
+        time => Ok(time.map(|time| unit.seconds(time))),
+    }
+}
+
+/// A time in seconds that has to be more than 0, if there is one.
+pub(crate) fn positive(key: Key, unit: Unit, time: Option<f64>) -> Result<Option<f64>, Fault> {
+    let seconds = finite(key, unit, time)?;
+    if seconds.is_none_or(|seconds| seconds > 0.0) { Ok(seconds) } else { Err(Fault::new(key, What::Positive)) }
+}
+
+/// A time in seconds that has to be 0 or more, if there is one.
+fn not_negative(key: Key, unit: Unit, time: Option<f64>) -> Result<Option<f64>, Fault> {
+    let seconds = finite(key, unit, time)?;
+    if seconds.is_none_or(|seconds| seconds >= 0.0) { Ok(seconds) } else { Err(Fault::new(key, What::NotNegative)) }
+}
+
+/// A whole number from 1 to `most`.
+fn whole(key: Key, x: f64, most: u32) -> Result<u32, Fault> {
+    let is_whole = x.fract() == 0.0 && (1.0..=most.into()).contains(&x);
+    if is_whole { Ok(x as u32) } else { Err(Fault::new(key, What::Whole { most })) }
 }
 
 /// What is wrong with a timer's rate, in Hz, as all curves are in seconds here.
@@ -296,12 +363,7 @@ fn rate(error: ScheduleError) -> What {
     }
 }
 
-/// The fewest ticks that last as long as `gap`.
-pub(crate) fn whole_ticks(gap: f64, timer_hz: u32) -> u64 {
-    let hz = f64::from(timer_hz);
-    // Compared in seconds: gap and quotient are both the nearest to what is meant, so a gap written as
-    // a decimal fraction that is a whole number of ticks counts as one.
-    let nearest = (gap * hz).round();
-    let short = nearest / hz < gap;
-    (nearest as u64).saturating_add(short.into())
+/// The `f64` that is written with the digits of this `f32`, and read back as it.
+fn with_its_digits(x: f32) -> f64 {
+    x.to_string().parse().unwrap_or(x.into())
 }

@@ -1,11 +1,13 @@
 //! The two set-ups: which light the same shutter leaves of equal pulses, and of those made for it.
 
 use crate::lamp::{Lamp, SetUp};
-use crate::plan::{Plan, Trigger};
+use shutter_curve::ShutterCurve;
 
-/// The light of each flash of a plan, the greatest being 1.
+use crate::plan::{Curve, Plan, Trigger};
+
+/// The light of each flash of a plan, the greatest being 1; without a curve, all are alike.
 pub fn doses(set_up: SetUp, plan: &Plan) -> Vec<f64> {
-    let curve = &plan.curve;
+    let Some(Curve { shutter: curve, .. }) = &plan.curve else { return vec![1.0; plan.triggers.len()] };
     let time = |ticks| (f64::from(curve.open_start()) + plan.seconds(ticks)) as f32;
     let dose = |trigger: &Trigger| match (set_up, trigger.pulse) {
         (SetUp::Emulated, None) => 1.0,
@@ -17,6 +19,7 @@ pub fn doses(set_up: SetUp, plan: &Plan) -> Vec<f64> {
     let most = doses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     doses.iter().map(|dose| dose / most).collect()
 }
+
 /// How much of each share the lamp is on, where the scene does not say.
 const DUTY: f32 = 0.5;
 
@@ -40,17 +43,17 @@ pub struct Row {
 
 impl SetUps {
     /// Those of a plan.
-    pub fn new(plan: &Plan) -> Self {
+    pub fn new(plan: &Plan, curve: &ShutterCurve) -> Self {
         let n = plan.triggers.len();
         let duty = match plan.lamp {
             Lamp::Doses { duty } => duty,
             _ => DUTY,
         };
         // As long as a pulse of the same dose where the shutter is fully open, so that both set-ups get the same light.
-        let length = duty * plan.curve.exposure() / n as f32;
+        let length = duty * curve.exposure() / n as f32;
         let around = |t: f32| (t - 0.5 * length, t + 0.5 * length);
-        let equal: Vec<_> = plan.triggers.iter().map(|trigger| around(trigger.time)).collect();
-        let time = |fraction: f32| plan.curve.inverse_cdf(fraction / n as f32);
+        let equal: Vec<_> = plan.triggers.iter().map(|trigger| around(trigger.time as f32)).collect();
+        let time = |fraction: f32| curve.inverse_cdf(fraction / n as f32);
         let doses = (0..n).map(|i| {
             let middle = i as f32 + 0.5;
             (time(middle - 0.5 * duty), time(middle + 0.5 * duty))
@@ -76,8 +79,7 @@ impl SetUps {
 
 impl Row {
     /// The light of a pulse, against that of an equal pulse, `length` seconds long, which nothing dims.
-    pub fn dose(&self, plan: &Plan, length: f32, (on, off): (f32, f32)) -> f32 {
-        let curve = &plan.curve;
+    pub fn dose(&self, curve: &ShutterCurve, length: f32, (on, off): (f32, f32)) -> f32 {
         match self.is_shuttered {
             true => (curve.cdf(off) - curve.cdf(on)) * curve.exposure() / length,
             false => (off - on) / length,

@@ -1,6 +1,10 @@
-//! The numbers that a shutter's curve is made of.
+//! The numbers that a shutter's curve is made of, and where they are wrong.
 
-use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Part, ShutterCurve};
+use shutter_fit::unit::{rounded, short};
+
+use crate::fault::{DIGITS, Fault, What};
+use crate::scene::{Key, Shutter};
 
 /// A curve as a scene has it: its times in seconds, and its inner control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +16,53 @@ pub struct Shape {
     pub inner: Option<[f32; 8]>,
 }
 
+/// The keys of a curve's times.
+pub const TIMES: [Key; 4] = ["shutter.open_start", "shutter.open_end", "shutter.close_start", "shutter.close_end"];
+const INNER: Key = "shutter.shutteropening";
+
+/// So much of the interval a time may be off by its rounding to `f32`: less than what a good measurement is.
+const ROUNDING: f64 = 1e-4;
+
+/// A shutter's curve, and its numbers.
+///
+/// # Errors
+/// Those of [`Shape::new`], and a curve that the crate refuses.
+pub fn curve(shutter: &Shutter) -> Result<(Shape, ShutterCurve), Fault> {
+    let shape = Shape::new(shutter)?;
+    let curve = shape.curve().map_err(|error| shape.fault(shutter, error))?;
+    Ok((shape, curve))
+}
+
 impl Shape {
+    /// Those of a scene's shutter, known to be finite and kept by `f32`; what the crate makes of them is not known yet.
+    ///
+    /// # Errors
+    /// Numbers that are missing, not finite or lost by `f32`, and other than eight of `shutteropening`.
+    pub fn new(shutter: &Shutter) -> Result<Self, Fault> {
+        let mut seconds = [0.0; 4];
+        for (i, time) in given(shutter).into_iter().enumerate() {
+            let time = time.ok_or_else(|| Fault::new(TIMES[i], What::Missing))?;
+            if !time.is_finite() {
+                return Err(Fault::new(TIMES[i], What::Finite));
+            }
+            seconds[i] = shutter.unit().seconds(time);
+        }
+        let times = seconds.map(|time| time as f32);
+        let length = seconds[3] - seconds[0];
+        for i in 0..4 {
+            let off = (f64::from(times[i]) - seconds[i]).abs();
+            if times[i].is_infinite() {
+                return Err(Fault::new(TIMES[i], What::Beyond));
+            }
+            // Times out of order are told as such.
+            if length > 0.0 && off > ROUNDING * length {
+                return Err(Fault::new(TIMES[i], What::Lost { percent: 100.0 * off / length }));
+            }
+        }
+        let inner = shutter.shutteropening.as_deref().map(eight).transpose()?;
+        Ok(Self { times, inner })
+    }
+
     /// The shutter.
     pub fn curve(&self) -> Result<ShutterCurve, CurveError> {
         let [open_start, open_end, close_start, close_end] = self.times;
@@ -26,5 +76,95 @@ impl Shape {
     pub fn ramps(&self) -> Option<[CubicBezier; 2]> {
         let (opening, closing) = CubicBezier::shutteropening(self.times, self.inner?);
         Some([opening, closing])
+    }
+
+    /// By how many seconds `f32` moves a time of the curve against `open_start`, at most.
+    pub(crate) fn rounding(&self, shutter: &Shutter) -> f64 {
+        let given = given(shutter).map(|time| shutter.unit().seconds(time.unwrap_or_default()));
+        let moved = |i: usize| f64::from(self.times[i]) - given[i];
+        (1..4).map(|i| (moved(i) - moved(0)).abs()).fold(0.0, f64::max)
+    }
+
+    /// The value that a curve's error is about, and what may help.
+    fn fault(&self, shutter: &Shutter, error: CurveError) -> Fault {
+        use CurveError as E;
+        let times = self.times;
+        // The section that it is about; its end is at fault.
+        let (from, to) = match error {
+            E::TimesOutOfOrder => {
+                let early = (1..3).find(|&i| times[i - 1] > times[i]).unwrap_or(3);
+                return Fault::new(TIMES[early], error);
+            }
+            E::TooShort(Part::Opening) => (0, 1),
+            E::TooShort(Part::Plateau) => (1, 2),
+            E::TooShort(_) => (2, 3),
+            E::IntervalUnresolved | E::IntervalOutOfRange => (0, 3),
+            _ => return self.inner_fault(shutter, error),
+        };
+        let seconds = f64::from(times[to]) - f64::from(times[from]);
+        Fault::new(TIMES[to], What::Lasts { error, seconds, unit: shutter.unit() })
+    }
+
+    /// The same of the inner control points.
+    fn inner_fault(&self, shutter: &Shutter, error: CurveError) -> Fault {
+        use CurveError as E;
+        let Some(numbers) = &shutter.shutteropening else { return Fault::new(TIMES[3], error) };
+        let ramp = |part| if part == Part::Closing { 4 } else { 0 };
+        let point = |part, point: u8| ramp(part) + 2 * (usize::from(point) - 1);
+        let one = |i: usize| ((i, i + 1), What::Inner { error, number: numbers[i] });
+        let (inner, what) = match error {
+            E::FractionOutsideRamp { part, point: at } => one(point(part, at)),
+            E::OpennessOutOfRange { part, point: at } => one(point(part, at) + 1),
+            E::NotFinite(part) | E::TimesCross(part) => ((ramp(part), ramp(part) + 4), error.into()),
+            _ => ((0, 8), error.into()),
+        };
+        let mut fault = Fault { inner: Some(inner), ..Fault::new(INNER, what) };
+        fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
+        let is_time = matches!(error, E::FractionOutsideRamp { .. });
+        if let Some((convention, inner)) = is_time.then(|| self.misread(shutter, numbers)).flatten() {
+            fault.notes.push(format!("As {convention} they would fit; that is"));
+            fault.notes.push(format!("shutteropening = [{}]", inner.join(", ")));
+        }
+        fault
+    }
+
+    /// Another convention by which the inner control points fit, if there is one: its name, and the same points as the
+    /// crate takes them.
+    ///
+    /// Times go first, as they fit only where the control points lie on their own ramps; small fractions of each ramp
+    /// fit easily.
+    fn misread(&self, shutter: &Shutter, inner: &[f64]) -> Option<(String, [String; 8])> {
+        let [open_start, open_end, close_start, close_end] = given(shutter).map(Option::unwrap_or_default);
+        let fraction = |time: f64| (time - open_start) / (close_end - open_start);
+        let of_ramp = |ramp: usize, x: f64| match ramp {
+            0 => open_start + x * (open_end - open_start),
+            _ => close_start + x * (close_end - close_start),
+        };
+        let as_times = |_, x| fraction(x);
+        let as_ramps = |ramp, x| fraction(of_ramp(ramp, x));
+        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] =
+            [(format!("times in {}", shutter.unit().name()), &as_times), ("fractions of each ramp".into(), &as_ramps)];
+        conventions.into_iter().find_map(|(name, convert)| {
+            let inner: [f64; 8] = std::array::from_fn(|i| {
+                let x = inner[i];
+                rounded(if i % 2 == 0 { convert(i / 4, x) } else { x }, DIGITS)
+            });
+            // What is written is what has to fit.
+            let shape = Self { inner: Some(inner.map(|x| x as f32)), ..*self };
+            shape.curve().is_ok().then(|| (name, inner.map(|x| short(x, DIGITS))))
+        })
+    }
+}
+
+fn given(shutter: &Shutter) -> [Option<f64>; 4] {
+    [shutter.open_start, shutter.open_end, shutter.close_start, shutter.close_end]
+}
+
+fn eight(numbers: &[f64]) -> Result<[f32; 8], Fault> {
+    let eight: [f64; 8] = numbers.try_into().map_err(|_| Fault::new(INNER, What::NotEight(numbers.len())))?;
+    let eight = eight.map(|x| x as f32);
+    match eight.iter().position(|x| !x.is_finite()) {
+        Some(i) => Err(Fault { inner: Some((i, i + 1)), ..Fault::new(INNER, What::Finite) }),
+        None => Ok(eight),
     }
 }

@@ -4,27 +4,23 @@ use shutter_fit::unit::{short, stops};
 
 use crate::facts::Facts;
 use crate::plan::Plan;
-use crate::planned::Planned;
 
 /// A row for each plan, under the names of what stands in it.
-pub fn text(plans: &[(String, Planned)]) -> String {
-    let row = |(name, planned): &(String, Planned)| {
-        let unit = planned.unit;
+pub fn text(plans: &[(String, Plan)]) -> String {
+    let row = |(name, plan): &(String, Plan)| {
+        let (facts, unit) = (Facts::new(plan), plan.unit);
         // Times without a curve tell of no exposure.
-        let plan = planned.plan();
-        let optional = |seconds: Option<f64>| seconds.map_or("-".into(), |seconds| unit.show(seconds));
-        let delta = plan.and_then(|plan| Facts::new(plan).delta_ev);
-        let percent = |plan: &Plan| short(100.0 * f64::from(plan.curve.efficiency()), 3) + " %";
-        let triggers = planned.rows().len();
+        let time = |key| facts.number(key).map_or("-".into(), |seconds| unit.show(seconds));
+        let triggers = plan.triggers.len();
         [
             printable(name),
-            optional(planned.nominal),
-            optional(plan.map(|plan| plan.curve.exposure().into())),
-            delta.map_or("-".into(), stops),
-            plan.map_or("-".into(), percent),
-            optional(planned.delay.map(|delay| delay.seconds)),
-            match plan {
-                Some(plan) => format!("{triggers} of {}", plan.most),
+            time("nominal_s"),
+            time("exposure_s"),
+            facts.number("delta_ev").map_or("-".into(), stops),
+            facts.number("efficiency").map_or("-".into(), |part| short(100.0 * part, 3) + " %"),
+            time("delay_s"),
+            match &plan.curve {
+                Some(curve) => format!("{triggers} of {}", curve.most),
                 None => format!("{triggers} as measured"),
             },
         ]

@@ -3,7 +3,7 @@
 use shutter_fit::unit::short;
 
 use crate::fault::{Fault, What};
-use crate::scene::Optional;
+use crate::scene::Flashes;
 
 /// A timer that counts up and wraps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,35 +23,36 @@ impl Timer {
     ///
     /// # Errors
     /// A rate that is 0 or no `u32` when it is rounded, and other bits.
-    pub(crate) fn new(hz: Optional, bits: Optional, seconds: f64) -> Result<Self, Fault> {
-        let exact_hz = hz.map_or_else(|| fine(seconds), |hz| hz.get_ref().get());
+    pub(crate) fn new(flashes: &Flashes, seconds: f64) -> Result<Self, Fault> {
+        let given = flashes.timer_hz;
+        let exact_hz = given.unwrap_or_else(|| fine(seconds));
         // From 0.5 on it is 1 when it is rounded.
-        if let Some(hz) = hz.filter(|_| !(0.5..=f64::from(u32::MAX)).contains(&exact_hz)) {
-            return Err(Fault::at(hz, What::Rate));
+        if given.is_some() && !(0.5..=f64::from(u32::MAX)).contains(&exact_hz) {
+            return Err(Fault::new("flashes.timer_hz", What::Rate));
         }
-        let width = bits.map_or(32.0, |bits| bits.get_ref().get());
-        if let Some(place) = bits.filter(|_| ![16.0, 32.0].contains(&width)) {
-            return Err(Fault::at(place, What::Bits));
+        let bits = flashes.timer_bits.unwrap_or(32.0);
+        if ![16.0, 32.0].contains(&bits) {
+            return Err(Fault::new("flashes.timer_bits", What::Bits));
         }
-        let (hz, is_given) = (exact_hz.round() as u32, hz.is_some());
-        Ok(Self { hz, exact_hz, bits: width as u32, is_given })
+        Ok(Self { hz: exact_hz.round() as u32, exact_hz, bits: bits as u32, is_given: given.is_some() })
     }
 
     /// Has the count room for a delay and a frame of so many ticks? Of 32 bits that is checked as they are planned.
     ///
     /// # Errors
     /// A prescaler with which it has.
-    pub(crate) fn holds(&self, ticks: f64, bits: Optional) -> Result<(), Fault> {
+    pub(crate) fn holds(&self, ticks: f64) -> Result<(), Fault> {
         // Beyond half of the count, wrapping ticks no longer tell past from future.
         let most = (1u64 << (self.bits - 1)) as f64;
-        let is_beyond = self.is_given && ticks > most;
-        let Some(place) = bits.filter(|_| is_beyond) else { return Ok(()) };
+        if !self.is_given || ticks <= most || self.bits == 32 {
+            return Ok(());
+        }
         let least = (ticks / most).ceil();
         // One that leaves a whole rate, if there is one nearby.
         let whole = |by: &f64| (self.exact_hz / by).fract() == 0.0;
         let by = (0..=least as u64).map(|more| least + more as f64).find(whole).unwrap_or(least);
         let (bits, hz) = (self.bits, self.exact_hz / by);
-        Err(Fault::at(place, What::Wraps { ticks, bits, most, by, hz }))
+        Err(Fault::new("flashes.timer_bits", What::Wraps { ticks, bits, most, by, hz }))
     }
 
     /// What is to be said of it, where a delay and a frame last so many seconds.
@@ -71,6 +72,11 @@ impl Timer {
     /// By how many ticks the whole rate is off after so many seconds.
     pub(crate) fn off(&self, seconds: f64) -> f64 {
         (self.exact_hz - f64::from(self.hz)).abs() * seconds
+    }
+
+    /// So many ticks as seconds.
+    pub fn seconds(&self, ticks: impl Into<f64>) -> f64 {
+        ticks.into() / f64::from(self.hz)
     }
 }
 

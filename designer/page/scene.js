@@ -224,6 +224,8 @@ function fromParts(parts) {
 export const warnings = ({ doubts }) => doubts.map(({ text }) => `# Warning: ${text.replace(/\s+/g, ' ')}\n`).join('');
 
 const inToml = (x) => (Math.abs(x) >= 1e15 ? x.toExponential().replace('Infinity', 'inf') : JSON.stringify(x));
+/** What is to be fired, in a table of its own. */
+const FLASHES = SETTINGS.filter((key) => key !== 'nominal');
 const array = (numbers) => `[${numbers.map(inToml).join(', ')}]`;
 
 /** The scene as the text that `shutter plan` reads: by its curve, or by the times that a trace tells. */
@@ -234,6 +236,7 @@ export function toml(scene) {
   else if (inner) entries.push(['shutteropening', array(inner)]);
   const isTold = (key) => scene[key] !== null && !(measured && key === 'triggers');
   entries.push(...SETTINGS.filter(isTold).map((key) => [key, inToml(scene[key])]));
-  const lines = entries.map(([key, value]) => `${key} = ${value}\n`);
-  return `# ${name.replace(/[^\x20-\x7e]/g, '_')}\n${warnings(scene)}${lines.join('')}`;
+  const table = (is) => entries.filter(([key]) => is(key)).map(([key, value]) => `${key} = ${value}\n`).join('');
+  const head = `# ${name.replace(/[^\x20-\x7e]/g, '_')}\n${warnings(scene)}`;
+  return `${head}[shutter]\n${table((key) => !FLASHES.includes(key))}\n[flashes]\n${table((key) => FLASHES.includes(key))}`;
 }

@@ -43,12 +43,13 @@ const OF_FIELD = {
   min_pulse: () => 'it goes with pulses of equal doses',
   spread: () => '0 or more is required, and a delay',
   falls: () => 'it goes with a delay',
-  delay: () => '0 or more is required; an edge cannot trigger what comes before it',
   delay_too_long: () => 'the frame ends more than 2^31 ticks after the edge',
-  lag: ([by, most], of, { delay }) => {
+  before_edge: ([most, by, few], of, { delay }) => {
     const from = delay === null ? 'the start of opening' : 'the edge of the sync';
-    return `the first flash would come ${of(by)} before ${from}; a lag of ${of(most)} is the most`;
+    const come = few > 1 ? `flashes 0 to ${few - 1} come` : 'flash 0 comes';
+    return `${come} before ${from}, the first by ${of(by)}${most ? `; all of up to ${most} come behind it` : ''}`;
   },
+  missing: () => 'it is required',
   times_in_path: () =>
     'what a shutter in the light’s path leaves of a flash comes from its curve, and no curve explains this trace',
 };

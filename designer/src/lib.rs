@@ -5,6 +5,7 @@
 
 #[cfg(target_family = "wasm")]
 mod abi;
+pub mod flat;
 #[cfg(feature = "studio")]
 mod studio;
 #[cfg(not(feature = "studio"))]

@@ -1,17 +1,18 @@
 //! What is loaded after the page has begun: forms to take away, scenes that are opened, fits to a trace.
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use shutter::emit::{self, Form};
 use shutter::fault::Fault;
 use shutter::fitted::{self, Zero, no_scene};
-use shutter::planned::Planned;
-use shutter::scene;
-use shutter::times::Times;
+use shutter::plan::Plan;
+use shutter::scene::{Flashes, Scene};
 use shutter_fit::delay::{self, Sync};
 use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Trace};
 use shutter_fit::unit::Unit;
 use shutter_fit::{From, Options, report, speed};
 
+use crate::flat;
 use crate::words::{self, Told};
 
 /// More samples are drawn as the least and the greatest of neighbours.
@@ -54,19 +55,20 @@ struct Emitted {
 }
 
 fn emitted(name: &str, scene: &str, form: Form) -> Result<Emitted, String> {
-    let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
-    Ok(Emitted { text: emit::emit(form, name, &planned, false)?, file: form.file(name) })
+    let plan = Plan::parse(scene).map_err(|fault| fault.locate(name, scene))?;
+    Ok(Emitted { text: emit::emit(form, name, &plan, false)?, file: form.file(name) })
 }
 
 /// The scene, if it can be planned.
-fn checked(name: &str, text: &str) -> Result<scene::Scene, String> {
+fn checked(name: &str, text: &str) -> Result<Value, String> {
     let located = |fault: Fault| fault.locate(name, text);
-    if let Planned::Times(_) = Planned::parse(text).map_err(located)? {
+    let scene = Scene::parse(text).map_err(located)?;
+    if Plan::new(&scene).map_err(located)?.curve.is_none() {
         let reason = "these are trigger times as they were measured, and this page needs the curve that they lack: \
                       open their trace here, or give the times to `shutter plan` in a terminal";
         return Err(format!("{name}: {reason}"));
     }
-    scene::parse(text).map_err(located)
+    Ok(flat::object(&scene))
 }
 
 /// How a file is to be read, and what of it is to be fitted; what is left out is the file's own.
@@ -106,7 +108,7 @@ struct Measured {
 #[derive(Serialize)]
 struct Fitted {
     /// The curve, from its start of opening on.
-    scene: scene::Scene,
+    scene: Value,
     /// Where the curve does not explain the trace: the trace's own triggers as the program writes them.
     own: Option<Own>,
     /// As the program prints it.
@@ -174,14 +176,17 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
     let mut fit = shutter_fit::fit(&recording.trace, &options, progress)?;
     fit.reading = Some(recording.reading);
     // The page shows a curve, be it one that does not explain the trace: a warning says so.
-    let text = fitted::curve_scene(&fit, name, Zero::Open, None)?.text;
+    let (shutter, _) = fitted::curve_shutter(&fit, name, Zero::Open, None)?;
+    let flashes = Flashes { triggers: Some(fit.triggers.len() as f64), ..Flashes::default() };
+    let scene = Scene { shutter, flashes: flashes.clone(), is_edited: false };
     let warnings = recording.warnings.iter().chain(&fit.warnings).map(words::warning).collect();
     let signal = &fit.best().signal;
     let own = match fit.from {
         From::Model => None,
         From::Trace => {
-            let text = fitted::scene(&fit, name, Zero::Open, None)?.text;
-            let own = Times::parse(&text).map_err(|fault| no_scene(&fault))?;
+            let (shutter, _) = fitted::shutter(&fit, name, Zero::Open, None)?;
+            let own = Scene { shutter, flashes, is_edited: false };
+            let own = Plan::new(&own).map_err(|fault| no_scene(&fault))?;
             let times = own.triggers.iter().map(|trigger| trigger.time).collect();
             Some(Own { times, timer_hz: own.timer.hz, until_curve: signal.curve.start - fit.opens })
         }
@@ -192,7 +197,7 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         [t - start, (v - signal.dark) / signal.gain, residual]
     });
     Ok(Fitted {
-        scene: scene::parse(&text).map_err(|fault| no_scene(&fault))?,
+        scene: flat::object(&scene),
         report: shutter_fit::text(name, &fit),
         kind: fit.chosen.title(),
         json: shutter_fit::json(name, &fit, &[]),

@@ -3,17 +3,17 @@
 //! The answer is numbers, in parts that each begin with their length: the page reads them as they are in memory, which
 //! is faster than any text, and its first load has nothing that writes one. Times are in seconds; NaN is none.
 
-use shutter::facts::{Facts, coarse, drift, ends};
+use shutter::facts::{Facts, closest, coarse, drift, ends};
 use shutter::fault::{Code, Fault, Pair, What};
 use shutter::lamp::Lamp;
-use shutter::plan::{MOST_TRIGGERS, Plan};
-use shutter::planned::Planned;
-use shutter::scene::{KEYS, Scene};
+use shutter::plan::{Curve, MOST_TRIGGERS, Plan};
+use shutter::scene::Scene;
 use shutter::set_up::doses;
-use shutter::shape::Shape;
-use shutter::times::Times;
+use shutter::shape::{self, Shape};
 use shutter_curve::{CubicBezier, CurveError};
 use shutter_fit::unit::Unit;
+
+use crate::flat::{KEYS, NUMBERS, of_numbers, place};
 
 /// The points along the cdf.
 const POINTS: u16 = 200;
@@ -38,7 +38,8 @@ impl Parts {
     fn put_wrong(&mut self, fault: &Fault, question: &Question) {
         let place = |i: Option<usize>| i.map_or(f64::NAN, |i| i as f64);
         let inner = [fault.inner.map(|inner| inner.0), fault.inner.map(|inner| inner.1)].map(place);
-        let head = [place(Some(Code::from(&*fault.what) as usize)), place(fault.at)];
+        let key = KEYS.iter().position(|key| *key == fault.name());
+        let head = [place(Some(Code::from(&*fault.what) as usize)), place(key)];
         self.put(head.into_iter().chain(inner).chain(values(&fault.what)));
         self.put(question.remedies());
     }
@@ -47,7 +48,7 @@ impl Parts {
 /// A scene's unit and numbers, and the times of its triggers in that unit where a trace tells them.
 struct Question {
     unit: Unit,
-    numbers: [f64; Scene::NUMBERS],
+    numbers: [f64; NUMBERS],
     measured: Vec<f64>,
 }
 
@@ -62,32 +63,34 @@ impl Question {
     }
 
     fn scene(&self) -> Scene {
-        Scene::of_numbers(self.unit, &self.numbers)
+        of_numbers(self.unit, &self.numbers)
     }
 
-    /// Its plan, of the trace's own times where it has them.
-    fn plan(&self) -> Result<Planned, Fault> {
-        match &*self.measured {
-            [] => Plan::new(&self.scene()).map(Planned::from),
-            times => Times::of_numbers(self.scene(), times).map(Planned::from),
+    /// Its plan, of the trace's own times, counted from the start of opening, where it has them.
+    fn plan(&self) -> Result<Plan, Fault> {
+        let mut scene = self.scene();
+        if !self.measured.is_empty() {
+            let Scene { shutter, flashes, .. } = &mut scene;
+            (shutter.open_start, shutter.trigger_times) = (Some(0.0), Some(self.measured.clone()));
+            [shutter.open_end, shutter.close_start, shutter.close_end] = [None; 3];
+            (shutter.shutteropening, flashes.triggers, flashes.fully_open) = (None, None, None);
+            [flashes.pulse, flashes.duty, flashes.min_pulse] = [None; 3];
         }
+        Plan::new(&scene)
     }
 
     /// Can it be planned with other numbers of these keys?
     fn is_planned(&self, keys: &[&str], number: f64) -> bool {
         let mut numbers = self.numbers;
         for key in keys {
-            let place = |key| KEYS.iter().position(|known| *known == key).unwrap_or_default();
-            // One key has eight numbers.
-            let later = place(*key) > place("shutteropening");
-            numbers[place(*key) + if later { 7 } else { 0 }] = number;
+            numbers[place(key)] = number;
         }
         Self { unit: self.unit, numbers, measured: self.measured.clone() }.plan().is_ok()
     }
 
     /// What would help a scene that cannot be planned: each place among the remedies, and its number.
     fn remedies(&self) -> Vec<f64> {
-        let asked = self.scene().triggers().min(MOST_TRIGGERS + 1);
+        let asked = triggers(&self.scene()).min(MOST_TRIGGERS + 1);
         let (mut low, mut high) = (0, if self.measured.is_empty() { asked } else { 0 });
         while high > low + 1 {
             let middle = low.midpoint(high);
@@ -117,12 +120,17 @@ pub fn view(question: &[u8]) -> Vec<f64> {
 
 /// Has the scene in the question a curve?
 pub fn allowed(question: &[u8]) -> bool {
-    Question::read(question).is_some_and(|question| question.scene().curve().is_ok())
+    Question::read(question).is_some_and(|question| shape::curve(&question.scene().shutter).is_ok())
+}
+
+/// How many flashes a scene asks for, as near as a count can be; not all can be planned.
+fn triggers(scene: &Scene) -> u32 {
+    scene.flashes.triggers.unwrap_or_default() as u32
 }
 
 fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
     let (scene, measured) = (question.scene(), &question.measured);
-    let (shape, curve) = scene.curve()?;
+    let (shape, curve) = shape::curve(&scene.shutter)?;
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
     let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
     let points = ramps(&shape).map(|ramp| ramp.points());
@@ -132,11 +140,11 @@ fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
     parts.put(times.flat_map(|t| [t, curve.cdf(t)]));
     parts.put([curve.exposure(), curve.efficiency()]);
     let plan = question.plan();
-    let n = scene.triggers().min(MOST_TRIGGERS);
+    let n = triggers(&scene).min(MOST_TRIGGERS);
     let u = |i: f32| i / n as f32;
     // Flashes while the shutter is fully open share out the time, not the exposure; measured ones have no curve that
     // does.
-    let is_shared = matches!(&plan, Ok(Planned::Curve(plan)) if plan.lamp != Lamp::FullyOpen);
+    let is_shared = matches!(&plan, Ok(Plan { curve: Some(_), lamp, .. }) if *lamp != Lamp::FullyOpen);
     // Where the equal shares of the exposure begin and end.
     parts.put((0..=n).filter(|_| is_shared).map(|i| curve.inverse_cdf(u(i as f32))));
     let mark = |t: f32, u: f32| [t, curve.openness(t), u].map(f64::from);
@@ -149,7 +157,9 @@ fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
                 [t, curve.openness(t as f32).into(), u]
             })
             .collect(),
-        Ok(Planned::Curve(plan)) => plan.triggers.iter().flat_map(|it| mark(it.time, it.u)).collect::<Vec<_>>(),
+        Ok(plan) => {
+            plan.triggers.iter().flat_map(|it| mark(it.time as f32, it.u.unwrap_or_default())).collect::<Vec<_>>()
+        }
         _ => {
             let middles = (0..n).map(|i| u(i as f32 + 0.5));
             middles.flat_map(|u| mark(curve.inverse_cdf(u), u)).collect()
@@ -159,38 +169,23 @@ fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
     Ok(())
 }
 
-fn put_plan(planned: &Planned, parts: &mut Parts) {
-    let (timer, delay) = (planned.timer, planned.delay);
-    let plan = planned.plan();
-    // What a lamp's lag takes off each tick.
-    let early = planned.lag.map_or(0, |lag| lag.ticks);
-    let (ticks, pulses): (Vec<_>, Vec<_>) = match planned {
-        Planned::Curve(plan) => {
-            let pulses = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
-            (plan.triggers.iter().map(|it| it.ticks).collect(), pulses.collect())
-        }
-        Planned::Times(times) => (times.triggers.iter().map(|it| it.ticks).collect(), Vec::new()),
-    };
-    // The least gap between two, or the least darkness.
-    let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]).min();
-    let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
-    let closest = if pulses.is_empty() { gaps } else { dark };
-    let none = f64::NAN;
+fn put_plan(plan: &Plan, parts: &mut Parts) {
+    let (rows, sync, none) = (plan.rows(), plan.sync, f64::NAN);
     parts.put([
-        timer.hz.into(),
-        early.into(),
-        delay.map_or(none, |delay| delay.ticks.into()),
-        plan.map_or(none, |plan| plan.most.into()),
-        closest.map_or(none, |ticks| f64::from(ticks) / f64::from(timer.hz)),
-        planned.min_gap,
-        plan.map_or(none, |plan| Facts::new(plan).half_open),
-        drift(planned).unwrap_or(none),
-        coarse(planned).unwrap_or(none),
+        plan.timer.hz.into(),
+        sync.early.into(),
+        sync.delay.map_or(none, |_| sync.ticks.into()),
+        plan.curve.as_ref().map_or(none, |Curve { most, .. }| f64::from(*most)),
+        closest(plan).unwrap_or(none),
+        plan.min_gap.unwrap_or_default(),
+        Facts::new(plan).number("half_open_s").unwrap_or(none),
+        drift(plan).unwrap_or(none),
+        coarse(plan).unwrap_or(none),
     ]);
-    parts.put(ticks.into_iter().map(|ticks| ticks - early));
-    parts.put(pulses.into_iter().flat_map(|(on, off)| [on, off]));
+    parts.put(rows.iter().map(|row| row.ticks));
+    parts.put(plan.pulses().flat_map(|(on, off)| [on, off]));
     // The light of the first, the middle and the last flash, where the set-up is known and they differ.
-    let doses = plan.and_then(|plan| Some(doses(plan.set_up?, plan))).unwrap_or_default();
+    let doses = plan.set_up.filter(|_| plan.curve.is_some()).map(|set_up| doses(set_up, plan)).unwrap_or_default();
     let is_even = doses.iter().all(|dose| *dose > 0.985);
     parts.put(if is_even { Vec::new() } else { ends(&doses) });
 }
@@ -204,11 +199,11 @@ fn values(what: &What) -> Vec<f64> {
     match what {
         W::Curve(error) | W::Lasts { error, .. } => vec![kind(error)],
         W::Inner { error, number } => vec![kind(error), *number],
-        W::Lost { percent, .. } => vec![*percent],
-        W::Whole { most, .. } | W::RateTooHigh { most } => vec![(*most).into()],
+        W::Lost { percent } => vec![*percent],
+        W::Whole { most } | W::RateTooHigh { most } => vec![(*most).into()],
         W::Wraps { bits, by, hz, .. } => vec![(*bits).into(), *by, *hz],
         W::PulseOfNoTick { hz } => vec![(*hz).into()],
-        W::Lag { by, most, .. } => vec![*by, *most],
+        W::BeforeEdge { by, most, few, .. } => vec![many(most), *by, *few as f64],
         W::Close { pair, most } | W::DosesClose { pair, most } => with(most, pair),
         W::DoseShort { i, lasts, least, most } => {
             vec![many(most), *i as f64, lasts.seconds(), least.seconds()]

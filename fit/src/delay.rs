@@ -108,9 +108,10 @@ impl Synced {
             Sync::Edge(time) => {
                 let mut starts = Starts::default();
                 starts.of.resize(frames.len(), None);
-                let after = frames.iter().position(|frame| frame.crossings[1] > *time);
-                let after = after.unwrap_or(frames.len() - 1);
-                starts.of[after] = Some(Edge { time: *time, error: 0.0 });
+                // It may come while the shutter is open, as that of an X contact does.
+                let own = frames.iter().position(|frame| frame.crossings[5] > *time);
+                let own = own.ok_or("the given edge comes after all pulses")?;
+                starts.of[own] = Some(Edge { time: *time, error: 0.0 });
                 Ok(Self { starts, switch: None, step: 0.0 })
             }
             Sync::Channel(channel) => {
@@ -126,7 +127,7 @@ impl Synced {
 /// doubtful about it; none without a sync.
 ///
 /// # Errors
-/// An edge of a given time after the start of opening, or before another frame; a channel that does not tell the edges.
+/// An edge of a given time before another frame; a channel that does not tell the edges.
 pub(crate) fn measure(
     records: &[Record],
     shots: &[Shot],
@@ -177,11 +178,6 @@ pub(crate) fn measure(
     let is_late = delays.iter().filter(|delay| **delay < 0.0);
     let by = is_late.clone().fold(0.0, |most, delay| f64::max(most, -delay));
     let (late, n, all) = (is_late.count(), delays.len(), all.len());
-    if is_given && late > 0 {
-        let unit = Unit::fit(by);
-        let (by, unit) = (short(unit.of(by), 3), unit.name());
-        return refused(&format!("the shutter opens {by} {unit} before the edge of the sync"));
-    }
     let width = 12f64.sqrt() * (edges_variance / n as f64).sqrt();
     if late == n && width > f64::max(0.2 * curve.opening, 2.5 * step) {
         return refused("its column changes after the opening, and as slowly as light does; is it the light's?");
@@ -284,33 +280,4 @@ pub fn switch(switch: &Switch) -> String {
     let places = decimals(on - rest, 3);
     let [rest, on, threshold] = [rest, on, threshold].map(|level| trimmed(*level, places));
     format!("{way} from {rest} to {on}; an edge counts at {threshold}")
-}
-
-/// The delay as lines of a scene in this unit, with so many decimals.
-pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
-    const WHAT: &str = "From the edge of the camera's sync to open_start";
-    let Some(delay) = delay else {
-        return format!("# delay = ? # {WHAT}, which fit --sync measures.\n");
-    };
-    let (mean, digits) = (delay.mean(), |seconds: f64| short(unit.of(seconds), 2));
-    if mean < 0.0 {
-        return format!("# delay = ? # {WHAT}: the edge comes {} too late.\n", digits(-mean));
-    }
-    let (error, trigger) = (digits(delay.error()), digits(delay.trigger_error()));
-    let text = format!("# {WHAT}, ± {error}; from the edge to any trigger, ± {trigger}");
-    let value = trimmed(unit.of(mean), places);
-    let edge = match delay.switch {
-        Some(switch) => format!("sync_falls = {}\n", switch.falls()),
-        None => "# sync_falls = ... # true, or false if that edge rises\n".into(),
-    };
-    let lines = match (delay.spread(), delay.worst()) {
-        (Some(spread), Some(worst)) => format!(
-            "{text}; of {} shots the worst is {} off\ndelay = {value}\ndelay_spread = {}\n",
-            delay.shots.len(),
-            digits(worst),
-            digits(spread),
-        ),
-        _ => format!("{text}; one shot tells no spread\ndelay = {value}\n"),
-    };
-    lines + &edge
 }

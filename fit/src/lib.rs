@@ -21,6 +21,7 @@ mod curve;
 pub mod delay;
 mod doubts;
 mod errors;
+pub mod fact;
 mod frame;
 mod hum;
 mod json;

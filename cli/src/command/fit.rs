@@ -2,6 +2,7 @@
 
 use std::io::{IsTerminal, Write, stderr};
 use std::iter::once;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -13,17 +14,17 @@ use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
 
 use super::fit_many::{self, Speed};
 use super::input::{file_name, shown, stem};
-use super::kept::Old;
 use super::mark;
 use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
 use super::sensors;
 use crate::emit::Form;
+use crate::facts::Facts;
 use crate::fitted::{self, Zero};
 use crate::picture;
-use crate::plan::MOST_TRIGGERS;
-use crate::planned::Planned;
+use crate::plan::{MOST_TRIGGERS, Plan};
+use crate::scene::{Scene, Written};
 
 /// Without progress for so long, nobody waits for any.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -174,7 +175,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     if let Some(picture) = &args.picture {
         outputs.check(picture, mark::SVG)?;
     }
-    let olds = scenes.iter().map(|file| old(&mut outputs, file)).collect::<Result<Vec<_>, _>>()?;
+    let olds = scenes.iter().map(|file| old(args, &mut outputs, file)).collect::<Result<Vec<_>, _>>()?;
 
     let (how, options) = args.asked();
     let read = traces.iter().enumerate();
@@ -189,7 +190,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let size = if is_one { read.len() } else { 1 };
     let mut speeds = Vec::new();
     for (i, (read, records)) in read.chunks(size).zip(records.chunks(size)).enumerate() {
-        let triggers = args.triggers.or(olds.get(i).and_then(Option::as_ref).and_then(Old::triggers));
+        let triggers = args.triggers.or(triggers(olds.get(i)));
         let mut speed = measure(read, records, triggers)?;
         speed.fit.nominal = args.nominal.get(i).copied();
         speeds.push(speed);
@@ -205,7 +206,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         let whose = if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
         told.extend(of.iter().map(|warning| format!("warning: {whose}{}\n", warning.with_option())));
     }
-    told += &said.kept;
+    told += &said.told;
     let report = match (args.report, speeds.as_slice()) {
         (Report::Json, speeds) => json(speeds),
         (_, [Speed { name, fit, .. }]) => {
@@ -315,15 +316,15 @@ fn is_one_setting(args: &Args, read: &[Read], records: &[Record], scenes: usize)
 /// What is said of scenes.
 #[derive(Default)]
 struct Said {
-    /// What they keep of the older ones.
-    kept: String,
-    /// The keys that only their user can write.
+    /// Of each what is doubtful once it is planned, and what else is to be known.
+    told: String,
+    /// What only their user can tell.
     lacks: Vec<&'static str>,
     /// The one that goes to no file.
     scene: String,
 }
 
-/// All that is written: scenes, with what is kept of the older ones, and a picture.
+/// All that is written: scenes, each in place of the shutter of an older one, and a picture.
 fn write(
     args: &Args,
     speeds: &mut [Speed],
@@ -335,42 +336,62 @@ fn write(
     let mut olds = olds.into_iter();
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
-        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
+        let unit = old.as_ref().map(|old| old.scene.shutter.unit());
+        let (shutter, zero) = fitted::shutter(fit, name, args.zero, unit)
             .map_err(|refusal| format!("{name}: {}", refusal.with_option()))?;
+        let text = match old {
+            Some(old) => old.with(&shutter.text()),
+            None => shutter.text() + &fitted::flashes(&shutter, fit.triggers.len()),
+        };
+        let scene = Scene::parse(&text).map_err(|fault| fault.locate(name, &text))?;
         let Some(file) = files.get(i) else {
-            said.scene = scene.text;
+            said.scene = text;
             continue;
         };
-        if scene.zero != args.zero {
+        if zero != args.zero {
             warnings.push(Warning::ZeroMoved);
         }
-        let was = old.as_ref().and_then(Old::sync_falls);
-        let (text, kept) = match old {
-            Some(old) => merged(&old, &scene.text, file)?,
-            None => (scene.text, Vec::new()),
-        };
-        if !kept.is_empty() {
-            said.kept += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+        let file_name = file.display();
+        match Plan::new(&scene) {
+            // What the fit finds doubtful is told already.
+            Ok(plan) => {
+                let doubts = Facts::new(&plan).doubts.into_iter().filter(|doubt| doubt.code != "trace");
+                said.told.extend(doubts.map(|doubt| format!("warning: {file_name}: {}\n", doubt.text)));
+            }
+            Err(fault) => said.told += &format!("warning: {file_name}: as it is, {}\n", fault.reason()),
         }
-        let is = Old::parse(text.as_bytes()).and_then(|it| it.sync_falls());
-        if let (Some(was), Some(is)) = (was, is)
-            && was != is
-        {
-            let file = file.display();
-            said.kept += &format!("{file}: sync_falls was {was}, and the trace says {is}\n");
-        }
-        for key in ["set_up", "timer_hz", "sync_falls"] {
-            if text.contains(&format!("\n# {key} = ")) && !said.lacks.contains(&key) {
-                said.lacks.push(key);
+        let flashes = &scene.flashes;
+        let lacks = [
+            ("--set-up emulated|in_path", flashes.set_up.is_none()),
+            ("--timer-hz HERTZ", flashes.timer_hz.is_none()),
+            ("--min-gap TIME", flashes.min_gap.is_none()),
+            ("--sync-falls true|false", has_edge_untold(&scene)),
+        ];
+        for (option, _) in lacks.into_iter().filter(|(_, lacks)| *lacks) {
+            if !said.lacks.contains(&option) {
+                said.lacks.push(option);
             }
         }
-        outputs.replace(file, mark::marked(mark::TOML, &text))?;
+        outputs.replace(file, text)?;
     }
     if let (Some(file), [Speed { name, fit, .. }]) = (&args.picture, &*speeds) {
         let picture = picture::trace(name, fit).map_err(|e| format!("the picture: {e}"))?;
         outputs.add(file, mark::SVG, &picture)?;
     }
     outputs.ready()
+}
+
+/// Is there a delay, and nobody told from which edge?
+fn has_edge_untold(Scene { shutter, flashes, .. }: &Scene) -> bool {
+    let own = flashes.delay.is_some();
+    (own || shutter.delay.is_some()) && flashes.sync_falls.is_none() && (own || shutter.sync_falls.is_none())
+}
+
+/// As many as an older scene has.
+fn triggers(old: Option<&Option<Old>>) -> Option<u32> {
+    let Old { scene, .. } = old?.as_ref()?;
+    let own = scene.flashes.triggers.map(|n| n as u32).filter(|n| (1..=MOST_TRIGGERS).contains(n));
+    own.or(scene.shutter.trigger_times.as_ref().map(|times| times.len() as u32))
 }
 
 /// What to do with the scenes.
@@ -387,30 +408,52 @@ fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
         [one] => quoted(&one.with_file_name(Form::Rust.file(&stem(one)))),
         _ => " shutters.rs".into(),
     };
-    let first = match lacks {
-        [] => String::new(),
-        lacks => format!("write {} into the scene, then ", lacks.join(", ")),
+    let lacks: String = lacks.iter().map(|option| format!(" {option}")).collect();
+    format!("next: shutter plan{plan}{lacks} --emit rust --to{to}\n")
+}
+
+/// A scene that is there, whose shutter is replaced.
+struct Old {
+    text: String,
+    scene: Scene,
+    at: Range<usize>,
+}
+
+impl Old {
+    /// The whole with another shutter.
+    fn with(self, shutter: &str) -> String {
+        let Self { text, at, .. } = self;
+        format!("{}{shutter}{}", &text[..at.start], &text[at.end..])
+    }
+}
+
+/// The scene that is where one is to be written, if its shutter is one that a fit wrote, or is replaced by force.
+fn old(args: &Args, outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
+    let Some(bytes) = outputs.old(file)? else { return Ok(None) };
+    let name = file.display();
+    let text = String::from_utf8(bytes).ok();
+    let found = text.and_then(|text| Some((Scene::parse(&text).ok()?, Written::find(&text)?, text)));
+    let Some((scene, Written { at, is_intact }, text)) = found else {
+        return match args.force {
+            true => Ok(None),
+            false => Err(format!("{name}: it holds no scene that a fit wrote; --force replaces it all")),
+        };
     };
-    format!("next: {first}shutter plan{plan} --emit rust --to{to}\n")
-}
-
-/// The scene that a fit wrote there, whatever was changed in it since.
-fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
-    let Some(text) = outputs.old(file)? else { return Ok(None) };
-    let text = std::str::from_utf8(&text).ok().and_then(|it| mark::below(mark::TOML, it));
-    text.and_then(|(text, _)| Old::parse(text.as_bytes()))
-        .map(Some)
-        .ok_or_else(|| format!("{}: it holds no scene that a fit wrote; --force replaces it", file.display()))
-}
-
-/// The new scene with what is kept of the old one, if it can be planned.
-fn merged(old: &Old, text: &str, file: &Path) -> Result<(String, Vec<String>), String> {
-    let (text, kept) = old.kept_in(text);
-    Planned::parse(&text).map_err(|fault| {
-        let (file, reason) = (file.display(), fault.reason());
-        format!("{file}: with what it keeps, {reason}; --force replaces it all")
-    })?;
-    Ok((text, kept))
+    if !is_intact && !args.force {
+        let reason = match scene.shutter.measured {
+            Some(_) => "you have changed what a fit wrote below [shutter]; what is yours belongs below [flashes]",
+            None => "no fit wrote its [shutter]",
+        };
+        return Err(format!("{name}: {reason}; --force replaces that table, and keeps the rest"));
+    }
+    if let (Some(asked), Some(has)) = (args.triggers, scene.flashes.triggers)
+        && f64::from(asked) != has
+    {
+        return Err(format!(
+            "{name}: --triggers {asked}: it has triggers = {has} below [flashes], which are yours: change it there"
+        ));
+    }
+    Ok(Some(Old { text, scene, at }))
 }
 
 /// One object, or an array of those of several.

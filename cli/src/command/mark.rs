@@ -6,7 +6,6 @@ use crate::emit::fnv;
 /// How a text has a comment on a line of its own: what begins it, and what ends it.
 pub type Comment = [&'static str; 2];
 
-pub const TOML: Comment = ["# ", ""];
 pub const RUST: Comment = ["// ", ""];
 pub const C: Comment = ["/* ", " */"];
 pub const SVG: Comment = ["<!-- ", " -->"];

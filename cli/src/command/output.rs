@@ -97,9 +97,6 @@ impl Outputs {
         if !folder.is_dir() && self.makes(path).is_none() {
             return Err(format!("{}: its folder is not there", path.display()));
         }
-        if self.force {
-            return Ok(None);
-        }
         if let Some((_, old)) = self.seen.iter().find(|(seen, _)| seen == path) {
             return Ok(old.clone().filter(|old| !old.is_empty()));
         }
@@ -118,7 +115,7 @@ impl Outputs {
 
     /// Refuses a file that no run wrote with such comments, or that was changed since.
     pub fn check(&mut self, path: &Path, comment: Comment) -> Result<(), String> {
-        let Some(old) = self.old(path)? else { return Ok(()) };
+        let Some(old) = self.old(path)?.filter(|_| !self.force) else { return Ok(()) };
         let reason = match std::str::from_utf8(&old).ok().and_then(|it| mark::below(comment, it)) {
             Some((_, true)) => return Ok(()),
             Some(_) => "you have changed it since it was written",
@@ -136,7 +133,7 @@ impl Outputs {
     /// Adds a file that has no comments; an older one has to be the same.
     pub fn add_table(&mut self, path: &Path, text: String) -> Result<(), String> {
         match self.old(path)? {
-            Some(old) if old != text.as_bytes() => Err(format!(
+            Some(old) if old != text.as_bytes() && !self.force => Err(format!(
                 "{}: it holds something else, and a table does not tell whose; --force replaces it",
                 path.display()
             )),

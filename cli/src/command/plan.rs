@@ -4,16 +4,15 @@ use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use shutter_fit::unit::short;
-
 use super::input::{self, shown, stem};
 use super::mark::{self, Comment};
 use super::output::{Outputs, svg_path};
 use super::settings::Settings;
 use crate::emit::Form;
+use crate::facts::Facts;
 use crate::plan::Plan;
-use crate::planned::Planned;
-use crate::{emit, facts, picture, report, speeds};
+use crate::scene::Scene;
+use crate::{emit, picture, report, speeds};
 
 /// The scene without a file, and the name it goes by.
 const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
@@ -51,7 +50,7 @@ pub struct Args {
     name: Option<String>,
 }
 
-type Draw = fn(&str, &Planned) -> Result<String, Box<dyn Error>>;
+type Draw = fn(&str, &Plan) -> Result<String, Box<dyn Error>>;
 
 pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
     let Args { scenes, out: picture, set_ups, emit: form, to, .. } = args;
@@ -63,36 +62,20 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let files = [picture, set_ups, to].into_iter().flatten().map(PathBuf::as_path);
     let files: Vec<&Path> = files.chain(printed).collect();
     let mut outputs = Outputs::new(&inputs, &files, args.force)?;
-    let mut told = String::new();
     let plans = match scenes.as_slice() {
         [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
-        paths => paths.iter().map(|path| read(args, path, &mut told)).collect::<Result<Vec<_>, String>>()?,
+        paths => paths.iter().map(|path| read(args, path)).collect::<Result<Vec<_>, String>>()?,
     };
-    for (name, plan) in plans.iter().filter(|_| form.is_some()) {
-        let of_curve = |fact: fn(&Plan) -> Option<String>| plan.plan().and_then(fact);
-        let doubts = [
-            of_curve(facts::dimmed).map(|doses| {
-                format!(
-                    "the shutter is in the light's path, and dims the flashes to {doses}; \
-                     --duty 0.5 (pulses) or --fully-open (xenon) makes doses equal"
-                )
-            }),
-            of_curve(facts::unequal).map(|by| {
-                format!("a tick is so long that the doses differ by up to {by} %; a faster timer makes them equal")
-            }),
-            facts::coarse(plan).map(|by| {
-                let by = short(by, 2);
-                format!(
-                    "a tick is so long that flashes move by up to {by} % of a share; a faster timer moves them less"
-                )
-            }),
-        ];
-        told.extend(doubts.into_iter().flatten().map(|doubt| format!("warning: {name}: {doubt}\n")));
+    // A report has them itself.
+    let mut told = String::new();
+    for (name, plan) in plans.iter().filter(|_| form.is_some() || plans.len() > 1) {
+        let doubts = Facts::new(plan).doubts;
+        told.extend(doubts.iter().map(|doubt| format!("warning: {name}: {}\n", doubt.text)));
     }
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {
             let name = args.name.as_ref().unwrap_or(name);
-            let pictures: [(_, Draw); 2] = [(picture, picture::svg), (set_ups, draw_set_ups)];
+            let pictures: [(_, Draw); 2] = [(picture, picture::svg), (set_ups, picture::set_ups)];
             for (file, draw) in pictures {
                 if let Some(file) = file {
                     let svg = draw(name, plan).map_err(|e| format!("the picture: {e}"))?;
@@ -133,31 +116,22 @@ fn comment(form: Form) -> Option<Comment> {
     }
 }
 
-/// The picture of both set-ups, whose doses come from a curve.
-fn draw_set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
-    let curve = plan.plan().ok_or("the set-ups are told apart by a curve, and the scene has none")?;
-    picture::set_ups(name, curve)
-}
-
-fn read(args: &Args, path: &Path, told: &mut String) -> Result<(String, Planned), String> {
+fn read(args: &Args, path: &Path) -> Result<(String, Plan), String> {
     let file = shown(path);
     let text =
         input::read(path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
     let text = text.map_err(|reason| format!("{file}: {reason}"))?;
-    if let Some(doubt) = args.settings.doubt(&file, &text) {
-        *told += &format!("warning: {doubt}\n");
-    }
     Ok((stem(path), checked(args, &file, &text)?))
 }
 
-fn checked(args: &Args, file: &str, text: &str) -> Result<Planned, String> {
-    let set = args.settings.of(text);
-    Planned::parse(&set).map_err(|mut fault| {
-        if set != text {
-            // What stands in no file has no line there.
-            fault.at = fault.at.filter(|_| fault.line(&set) == fault.line(text));
+fn checked(args: &Args, file: &str, text: &str) -> Result<Plan, String> {
+    let mut scene = Scene::parse(text).map_err(|fault| fault.locate(file, text))?;
+    let set = args.settings.set(&mut scene);
+    Plan::new(&scene).map_err(|mut fault| {
+        if !set.is_empty() {
             fault.notes.push("The command line sets some of this scene.".into());
         }
-        fault.locate(file, text)
+        // What stands in no file has no line there.
+        fault.locate(file, if set.contains(&fault.key) { "" } else { text })
     })
 }

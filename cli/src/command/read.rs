@@ -7,8 +7,8 @@ use shutter_fit::trace::{self, Column, Reading, Recording, Tell, Trace, Warning}
 use shutter_fit::{Options, Sync};
 
 use super::input::{self, file_name, shown};
-use super::kept::Old;
 use super::quantity::time;
+use crate::scene::Scene;
 
 /// Samples of one record are at the same time, to so much of the time between two.
 const SAME: f64 = 0.01;
@@ -127,7 +127,7 @@ impl<'a> Read<'a> {
 fn open(path: &Path, how: &trace::Options) -> Result<Recording, String> {
     let bytes = input::read(path)?;
     trace::open(&bytes, how).map_err(|refusal| match bytes.trim_ascii_start().first() {
-        _ if Old::parse(&bytes).is_some() => {
+        _ if str::from_utf8(&bytes).is_ok_and(|text| Scene::parse(text).is_ok()) => {
             format!("this is a scene, and no trace; `shutter plan {}` takes it", shown(path))
         }
         Some(b'{' | b'[') => "this is JSON; a trace is a table, with a row for each sample".into(),

@@ -1,11 +1,11 @@
 //! What a command line sets in place of a scene.
 
 use shutter_fit::unit::{Unit, short};
-use toml_edit::{DocumentMut, Item, value};
 
 use super::fit::trigger_count;
-use super::quantity::{self, time, whole_rate};
+use super::quantity::{time, whole_rate};
 use crate::lamp::SetUp;
+use crate::scene::{Key, Scene};
 
 /// The settings of a frame. They count in place of the scene's.
 #[derive(clap::Args, Default)]
@@ -16,66 +16,73 @@ pub struct Settings {
     /// The timer's rate: 1000000, 84MHz
     #[arg(long, value_name = "HERTZ", value_parser = whole_rate)]
     timer_hz: Option<u32>,
-    /// The least time between two triggers, or of darkness between pulses: 100us
+    /// The least time between two triggers, or of darkness between pulses: 100us, 0
     #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
     min_gap: Option<f64>,
-    /// Pulses of equal doses: the lamp is on for this part of each share of the exposure, above 0 and at most 1
-    #[arg(long, value_name = "PART")]
-    duty: Option<f64>,
-    /// Flashes of one length in equal steps while the shutter is fully open
-    #[arg(long, conflicts_with = "duty")]
-    fully_open: bool,
     /// Is the shutter in the light's path, or only emulated?
     #[arg(long)]
     set_up: Option<SetUp>,
+    /// Equal pulses of this length around the triggers: 50us
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    pulse: Option<f64>,
+    /// Pulses of equal doses: the lamp is on for this part of each share of the exposure, above 0 and at most 1
+    #[arg(long, value_name = "PART", conflicts_with = "pulse")]
+    duty: Option<f64>,
+    /// The shortest pulse that --duty may give
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    min_pulse: Option<f64>,
+    /// Flashes of one length in equal steps while the shutter is fully open
+    #[arg(long, conflicts_with_all = ["duty", "pulse", "min_pulse"])]
+    fully_open: bool,
+    /// From a trigger to the lamp's light; each trigger comes earlier by this time
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    lamp_lag: Option<f64>,
+    /// From the edge of the sync to the start of opening, in place of the trace's; below 0 if it opens before
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    delay: Option<f64>,
     /// Does the delay count from the falling edge of the sync?
     #[arg(long, value_name = "true|false")]
     sync_falls: Option<bool>,
 }
 
 impl Settings {
-    /// The scene with these settings; itself where there are none, or where it is no TOML.
-    pub fn of(&self, text: &str) -> String {
-        let Ok(mut scene) = text.parse::<DocumentMut>() else { return text.into() };
-        let unit = scene.get("unit").and_then(Item::as_str).and_then(quantity::unit);
-        let gap = self.min_gap.map(|gap| unit.unwrap_or(Unit::Second).of(gap));
-        // To the digits that were given: 100 us are 0.1 ms, whatever the binary product is.
-        let gap = gap.map(|gap| short(gap, 15).parse().unwrap_or(gap));
-        let set = [
-            ("triggers", self.triggers.map(|n| value(i64::from(n)))),
-            ("timer_hz", self.timer_hz.map(|hz| value(i64::from(hz)))),
-            ("min_gap", gap.map(value)),
-            ("duty", self.duty.map(value)),
-            ("fully_open", self.fully_open.then(|| value(true))),
-            ("set_up", self.set_up.map(|it| value(it.name()))),
-            ("sync_falls", self.sync_falls.map(value)),
-        ];
-        for (key, item) in set {
-            if let Some(item) = item {
-                scene[key] = item;
+    /// Sets them in a scene, and tells which.
+    pub fn set(&self, scene: &mut Scene) -> Vec<Key> {
+        let (unit, flashes) = (scene.unit(), &mut scene.flashes);
+        let mut keys = Vec::new();
+        let mut set = |key, place: &mut Option<f64>, x: Option<f64>| {
+            if x.is_some() {
+                *place = x;
+                keys.push(key);
             }
-        }
-        // A scene has one of them.
-        let others: &[_] = match (self.duty.is_some(), self.fully_open) {
-            (true, _) => &["pulse", "fully_open"],
-            (_, true) => &["pulse", "duty", "min_pulse"],
-            _ => &[],
         };
-        for key in others {
-            scene.remove(key);
+        // To the digits that were given: 100 us are 0.1 ms, whatever the binary product is.
+        let of = |seconds: Option<f64>| seconds.map(|it| tidy(unit, it));
+        set("flashes.triggers", &mut flashes.triggers, self.triggers.map(f64::from));
+        set("flashes.timer_hz", &mut flashes.timer_hz, self.timer_hz.map(f64::from));
+        set("flashes.min_gap", &mut flashes.min_gap, of(self.min_gap));
+        set("flashes.pulse", &mut flashes.pulse, of(self.pulse));
+        set("flashes.duty", &mut flashes.duty, self.duty);
+        set("flashes.min_pulse", &mut flashes.min_pulse, of(self.min_pulse));
+        set("flashes.lamp_lag", &mut flashes.lamp_lag, of(self.lamp_lag));
+        set("flashes.delay", &mut flashes.delay, of(self.delay));
+        if self.set_up.is_some() {
+            flashes.set_up = self.set_up;
+            keys.push("flashes.set_up");
         }
-        scene.to_string()
+        if self.sync_falls.is_some() {
+            flashes.sync_falls = self.sync_falls;
+            keys.push("flashes.sync_falls");
+        }
+        if self.fully_open {
+            flashes.fully_open = Some(true);
+            keys.push("flashes.fully_open");
+        }
+        keys
     }
+}
 
-    /// What is doubtful: an edge that is not the scene's, which a trace may have told.
-    pub fn doubt(&self, file: &str, text: &str) -> Option<String> {
-        let scene: DocumentMut = text.parse().ok()?;
-        let told = scene.get("sync_falls")?.as_bool()?;
-        let said = self.sync_falls.filter(|said| *said != told)?;
-        let edge = if said { "falling" } else { "rising" };
-        Some(format!(
-            "{file} has sync_falls = {told}, and --sync-falls {said} counts from the {edge} edge: that is right if \
-             something between the camera and the timer inverts the sync"
-        ))
-    }
+fn tidy(unit: Unit, seconds: f64) -> f64 {
+    let time = unit.of(seconds);
+    short(time, 15).parse().unwrap_or(time)
 }

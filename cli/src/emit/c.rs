@@ -3,10 +3,10 @@
 use std::iter::once;
 
 use super::{MADE_BY, comment, falls, fnv, has_pulses, name, origin, pulses, rows, ticks};
-use crate::planned::Planned;
+use crate::plan::Plan;
 
 /// The header of a plan, its names those of the scene.
-pub fn header(scene: &str, plan: &Planned) -> String {
+pub fn header(scene: &str, plan: &Plan) -> String {
     let (lower, upper) = names(scene);
     let (ticks, bits) = (ticks(plan), plan.timer.bits);
     let n = ticks.len();
@@ -19,9 +19,10 @@ pub fn header(scene: &str, plan: &Planned) -> String {
 ",
         plan.timer.hz
     );
-    if let Some(delay) = plan.delay {
+    if plan.sync.delay.is_some() {
         body += &edge(&upper, plan);
-        body += &format!("/* {} */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n", super::delay(plan), delay.ticks);
+        body +=
+            &format!("/* {} */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n", super::delay(plan), plan.sync.ticks);
     }
     let array = |about: &str, what: &str, ticks: String| {
         format!("\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_COUNT] = {{\n{ticks}}};\n")
@@ -36,7 +37,7 @@ pub fn header(scene: &str, plan: &Planned) -> String {
     } else {
         body += &array(&format!("When to trigger, {origin}."), "ticks", rows(ticks));
     }
-    if plan.delay.is_some() {
+    if plan.sync.delay.is_some() {
         let int = format!("uint{bits}_t");
         let (doc, on, off) = match has_pulses(plan) {
             true => (
@@ -67,7 +68,7 @@ static inline uint{bits}_t {lower}_due(uint{bits}_t edge, uint{bits}_t ticks)
 }
 
 /// The headers of several plans as one, and an array of them.
-pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
+pub fn headers(called: &str, plans: &[(String, Plan)]) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
     let (lower, upper) = names(called);
     let bits = one.timer.bits;
@@ -79,7 +80,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
         edge(&upper, one)
     );
     body += "typedef struct {\n    const char *name;\n    uint32_t count;\n";
-    if one.delay.is_some() {
+    if one.sync.delay.is_some() {
         body += &format!("    /* See its _DELAY_TICKS. */\n    uint{bits}_t delay_ticks;\n");
     }
     let origin = origin(plans.iter().map(|(_, plan)| plan));
@@ -91,7 +92,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     body += &format!("}} {lower}_speed;\n\nstatic const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{\n");
     for (scene, plan) in plans {
         let (lower, upper) = names(scene);
-        let delay = plan.delay.map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
+        let delay = plan.sync.delay.map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
         let arrays = arrays.iter().map(|array| format!("{lower}_{array}")).collect::<Vec<_>>();
         body += &format!("    {{\"{lower}\", {upper}_COUNT, {delay}{}}},\n", arrays.join(", "));
     }
@@ -103,7 +104,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
 }
 
 /// Which edge of the sync counts, if there is a delay from it.
-fn edge(upper: &str, plan: &Planned) -> String {
+fn edge(upper: &str, plan: &Plan) -> String {
     falls(plan).map_or(String::new(), |falls| {
         let falls = u8::from(falls);
         format!(

@@ -1,12 +1,12 @@
 //! Plans as rows, one for each trigger. Units stand in the names.
 
-use crate::planned::Planned;
+use crate::plan::Plan;
 
 /// The scene's name, and the keys of a row.
 const NAMES: &[u8] = b"scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks,dose\n";
 
 /// The rows of plans; what one of them does not have is empty.
-pub fn rows<'a>(plans: impl IntoIterator<Item = (&'a str, &'a Planned)>) -> String {
+pub fn rows<'a>(plans: impl IntoIterator<Item = (&'a str, &'a Plan)>) -> String {
     let mut out = csv::WriterBuilder::new().has_headers(false).from_writer(NAMES.to_vec());
     for (scene, plan) in plans {
         for row in plan.rows() {

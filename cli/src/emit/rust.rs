@@ -3,8 +3,7 @@
 use std::iter::once;
 
 use super::{MADE_BY, comment, falls, has_pulses, name, origin, pulses, rows, ticks};
-use crate::plan::Plan;
-use crate::planned::Planned;
+use crate::plan::{Curve, Plan};
 use crate::shape::Shape;
 
 /// Said of each item: a firmware need not use them all.
@@ -13,12 +12,12 @@ const ALLOW: &str = "#[allow(dead_code)]";
 const TABLE: &str = "#[allow(dead_code, clippy::unreadable_literal)]\n#[rustfmt::skip]";
 
 /// The file of a module that is called as the scene is.
-pub fn module(scene: &str, plan: &Planned, curve: bool) -> String {
+pub fn module(scene: &str, plan: &Plan, curve: bool) -> String {
     comment("// ", scene, plan) + "\n" + &items(plan, curve)
 }
 
 /// The file of a module with one module for each plan, and an array of them all.
-pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String {
+pub fn modules(called: &str, plans: &[(String, Plan)], curve: bool) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
     let int = int(one);
     let mut text = format!("// {MADE_BY}: {}, a shutter of {} speeds.\n\n", name::shown(called), plans.len());
@@ -27,7 +26,7 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
         "\n/// A speed of the shutter.\n{ALLOW}\npub struct Speed {{\n    /// The scene's name.\n    \
          pub name: &'static str,\n"
     );
-    let delay = one.delay.map(|_| {
+    let delay = one.sync.delay.map(|_| {
         text += &format!("    /// See `DELAY_TICKS`.\n    pub delay_ticks: {int},\n");
         "        delay_ticks: {}::DELAY_TICKS,\n"
     });
@@ -62,7 +61,7 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
 }
 
 /// What the speeds of a shutter have in common: the timer, and the edge.
-fn common(plan: &Planned) -> String {
+fn common(plan: &Plan) -> String {
     let hz = grouped(plan.timer.hz);
     let mut text = format!("/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {hz};\n");
     if let Some(falls) = falls(plan) {
@@ -75,7 +74,7 @@ fn common(plan: &Planned) -> String {
 }
 
 /// What the arrays of these hold.
-fn about<'a>(plans: impl Iterator<Item = &'a Planned> + Clone) -> String {
+fn about<'a>(plans: impl Iterator<Item = &'a Plan> + Clone) -> String {
     let what = match plans.clone().any(has_pulses) {
         true => "When to switch the lamp on, and when off",
         false => "When to trigger",
@@ -84,15 +83,15 @@ fn about<'a>(plans: impl Iterator<Item = &'a Planned> + Clone) -> String {
 }
 
 /// The items of a plan's module.
-fn items(plan: &Planned, curve: bool) -> String {
+fn items(plan: &Plan, curve: bool) -> String {
     let int = int(plan);
     let mut text = common(plan);
     text += &format!("\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {};\n", ticks(plan).len());
-    if let Some(delay) = plan.delay {
+    if plan.sync.delay.is_some() {
         text += &format!(
             "\n/// {}\n{ALLOW}\npub const DELAY_TICKS: {int} = {};\n",
             super::delay(plan),
-            grouped(delay.ticks)
+            grouped(plan.sync.ticks)
         );
     }
     let (array, rows) = match has_pulses(plan) {
@@ -102,17 +101,17 @@ fn items(plan: &Planned, curve: bool) -> String {
         false => (format!("TICKS: [{int}; COUNT]"), rows(ticks(plan))),
     };
     text += &format!("\n/// {}\n{TABLE}\npub const {array} = [\n{rows}];\n", about(once(plan)));
-    if plan.delay.is_some() {
+    if plan.sync.delay.is_some() {
         text += &from_edge(plan, int);
     }
-    match plan.plan() {
-        Some(plan) if curve => text + &shutter(plan),
+    match &plan.curve {
+        Some(own) if curve => text + &shutter(own),
         _ => text,
     }
 }
 
 /// The functions that count from the edge.
-fn from_edge(plan: &Planned, int: &str) -> String {
+fn from_edge(plan: &Plan, int: &str) -> String {
     let [width, on_off, item, each] = match has_pulses(plan) {
         true => [
             "_width",
@@ -152,7 +151,7 @@ pub fn due(edge: {int}) -> impl ExactSizeIterator<Item = {item}> {{
 }
 
 /// The curve, for the crate.
-fn shutter(plan: &Plan) -> String {
+fn shutter(curve: &Curve) -> String {
     format!(
         "
 use shutter_curve::{{ShutterCurve, expect}};
@@ -161,12 +160,12 @@ use shutter_curve::{{ShutterCurve, expect}};
 {TABLE}
 pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::{});
 ",
-        constructor(&plan.shape)
+        constructor(&curve.shape)
     )
 }
 
 /// The type of the timer's count.
-fn int(plan: &Planned) -> &'static str {
+fn int(plan: &Plan) -> &'static str {
     match plan.timer.bits {
         16 => "u16",
         _ => "u32",

@@ -7,7 +7,8 @@ use std::ops::Range;
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
 use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, INK, LIGHT, SCALE, VERMILION, axes, pen};
-use shutter_fit::unit::{Unit, decimals, trimmed};
+use shutter_curve::ShutterCurve;
+use shutter_fit::unit::{decimals, trimmed};
 
 use crate::plan::Plan;
 
@@ -17,16 +18,16 @@ pub const POINTS: usize = 800;
 pub const MOST_MARKS: usize = 50;
 
 /// What lies below the function `at` of time between two times.
-pub fn below(from: f32, to: f32, points: usize, unit: Unit, at: impl Fn(f32) -> (f64, f64)) -> Vec<(f64, f64)> {
-    let top = steps(from, to, points).map(at);
-    once((unit.of(from), 0.0)).chain(top).chain(once((unit.of(to), 0.0))).collect()
+pub fn below(from: f32, to: f32, points: usize, at: impl Fn(f32) -> (f64, f64)) -> Vec<(f64, f64)> {
+    let ends = [from, to].map(|t| (at(t).0, 0.0));
+    once(ends[0]).chain(steps(from, to, points).map(at)).chain(once(ends[1])).collect()
 }
 
 /// From just before to just after the curve, so that a jump at an end is drawn.
-pub fn draw_curve(graph: &mut Graph, plan: &Plan, f: impl Fn(f32) -> f32) -> Drawn {
-    let (start, end) = (plan.curve.open_start(), plan.curve.close_end());
+pub fn draw_curve(graph: &mut Graph, plan: &Plan, curve: &ShutterCurve, f: impl Fn(f32) -> f32) -> Drawn {
+    let (start, end, zero) = (curve.open_start(), curve.close_end(), plan.origin());
     let times = once(start.next_down()).chain(steps(start, end, POINTS)).chain(once(end.next_up()));
-    let line = times.map(|t| (plan.unit.of(t), f64::from(f(t))));
+    let line = times.map(|t| (plan.unit.of(f64::from(t) - zero), f64::from(f(t))));
     graph.draw_series(LineSeries::new(line, pen(BLUE, 2.5)))?;
     Ok(())
 }
@@ -44,24 +45,24 @@ pub fn graph<'a, 'b>(
     axes(area, time, Axis { range, name: Some(y), labels: 6, label: &|y| format!("{y:.1}") }, 60)
 }
 
-/// The axis of time: the interval, and a little room on either side.
+/// What the axis of time is called.
+pub fn time_axis(plan: &Plan) -> String {
+    let from = if plan.sync.delay.is_some() { " from the sync's edge" } else { "" };
+    format!("time{from} ({})", plan.unit.name())
+}
+
+/// The axis of time: the interval, and a little room on either side. It begins or ends with the edge of the camera's
+/// sync, where that is near.
 pub fn time_range(plan: &Plan) -> Range<f64> {
-    let unit = plan.unit;
-    let (start, end) = (unit.of(plan.curve.open_start()), unit.of(plan.curve.close_end()));
-    let start = sync(plan).filter(|edge| is_near(plan, *edge)).unwrap_or(start);
+    let [start, end] = [plan.start, plan.start + plan.length].map(|time| plan.unit.of(time - plan.origin()));
+    let (start, end) = if is_near(plan) { (start.min(0.0), end.max(0.0)) } else { (start, end) };
     let room = 0.03 * (end - start);
     start - room..end + room
 }
 
-/// The edge of the camera's sync on the plan's axis of time.
-pub fn sync(plan: &Plan) -> Option<f64> {
-    let unit = plan.unit;
-    plan.delay.map(|delay| unit.of(plan.curve.open_start()) - unit.of(delay.seconds))
-}
-
-/// Can the edge be on the axis without squeezing the curve?
-pub fn is_near(plan: &Plan, edge: f64) -> bool {
-    plan.unit.of(plan.curve.open_start()) - edge <= 1.5 * plan.unit.of(plan.length)
+/// Can the edge of the sync, at 0, be on the axis without squeezing the curve?
+pub fn is_near(plan: &Plan) -> bool {
+    plan.sync.delay.is_some_and(|delay| delay.seconds.abs() <= 1.5 * plan.length)
 }
 
 /// So many steps from `from` to `to`, both ends included.

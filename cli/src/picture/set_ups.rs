@@ -6,9 +6,10 @@ use std::error::Error;
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
 use chart::{Area, Axis, BLUE, Drawn, SCALE, VERMILION, axes, pen, picture};
+use shutter_curve::ShutterCurve;
 use shutter_fit::unit::short;
 
-use super::drawing::{below, draw_curve, graph, lit, steps, write_heading};
+use super::drawing::{below, draw_curve, graph, lit, steps, time_axis, write_heading};
 use crate::plan::Plan;
 use crate::set_up::{Row, SetUps};
 
@@ -22,49 +23,50 @@ const MOST_LABELS: usize = 12;
 /// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays
 /// open, the same with the shutter in the light's path, and pulses of equal doses there.
 pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
-    let (n, SetUps { length, rows }) = (plan.triggers.len(), SetUps::new(plan));
+    let curve = &plan.curve.as_ref().ok_or("the set-ups are told apart by a curve, and the scene has none")?.shutter;
+    let (n, SetUps { length, rows }) = (plan.triggers.len(), SetUps::new(plan, curve));
     let title = format!("The doses of {n} pulses with the shutter {name}, emulated and in the light's path");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let facts = "outlined: the lamp is on; filled: its light that arrives; dashed: the curve that is meant";
         write_heading(&heading, SIZE.0, &format!("{name}: the light of {n} pulses in the two set-ups"), facts)?;
         for (area, row) in rest.split_evenly((rows.len(), 1)).iter().zip(&rows) {
-            draw_row(area, plan, row, length)?;
+            draw_row(area, plan, curve, row, length)?;
         }
         Ok(())
     })
 }
 
-fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
+fn draw_row(area: &Area, plan: &Plan, curve: &ShutterCurve, row: &Row, length: f32) -> Drawn {
     let (title, rest) = area.split_vertically(TITLE * SCALE);
     let label = chart::text(15 * SCALE, HPos::Left, VPos::Center);
     title.draw_text(row.title, &label, (24 * SCALE, 20 * SCALE))?;
     let (left, right) = rest.split_horizontally(LEFT * SCALE);
-    draw_light(&left, plan, row)?;
-    let doses: Vec<_> = row.pulses.iter().map(|&pulse| f64::from(row.dose(plan, length, pulse))).collect();
+    draw_light(&left, plan, curve, row)?;
+    let doses: Vec<_> = row.pulses.iter().map(|&pulse| f64::from(row.dose(curve, length, pulse))).collect();
     draw_doses(&right, &doses)
 }
 
 /// The lamp in outlines, and what of its light comes through.
-fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit);
-    let time = format!("time ({})", unit.name());
-    let mut graph = graph(area, plan, "openness", Some(&time), 0.0..1.08)?;
+fn draw_light(area: &Area, plan: &Plan, curve: &ShutterCurve, row: &Row) -> Drawn {
+    let (unit, zero, name) = (plan.unit, plan.origin(), time_axis(plan));
+    let time = |t: f32| unit.of(f64::from(t) - zero);
+    let mut graph = graph(area, plan, "openness", Some(&name), 0.0..1.08)?;
     let at = |t: f32| {
         let openness = if row.is_shuttered { curve.openness(t) } else { 1.0 };
-        (unit.of(t), f64::from(openness))
+        (time(t), f64::from(openness))
     };
-    graph.draw_series(row.pulses.iter().map(|&(on, off)| Polygon::new(below(on, off, 32, unit, at), lit())))?;
+    graph.draw_series(row.pulses.iter().map(|&(on, off)| Polygon::new(below(on, off, 32, at), lit())))?;
     graph.draw_series(row.pulses.iter().map(|&(on, off)| {
-        let (on, off) = (unit.of(on), unit.of(off));
+        let (on, off) = (time(on), time(off));
         PathElement::new([(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], pen(VERMILION, 1.0))
     }))?;
     if row.is_shuttered {
-        draw_curve(&mut graph, plan, |t| curve.openness(t))
+        draw_curve(&mut graph, plan, curve, |t| curve.openness(t))
     } else {
         // The curve as it is meant, and the camera as it is.
         let start = curve.open_start();
-        let curve = steps(start, curve.close_end(), 100).map(|t| (unit.of(t), f64::from(curve.openness(t))));
+        let curve = steps(start, curve.close_end(), 100).map(|t| (time(t), f64::from(curve.openness(t))));
         let dashes = DashedLineSeries::new(curve, 6 * SCALE, 5 * SCALE, pen(BLUE, 1.5));
         graph.draw_series(dashes)?;
         Ok(())

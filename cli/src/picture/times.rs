@@ -7,35 +7,30 @@ use chart::plotters::style::text_anchor::{HPos, VPos};
 use chart::{Axis, INK, SCALE, axes, pen, picture};
 use shutter_fit::unit::{count, decimals, trimmed};
 
-use super::drawing::{draw_marks, write_heading};
-use crate::times::Times;
+use super::drawing::{draw_marks, is_near, time_axis, time_range, write_heading};
+use crate::plan::Plan;
 
 const SIZE: (i32, i32) = (900, 240);
 const HEADING: i32 = 70;
 
 /// The triggers of the scene `name`.
-pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
-    let unit = times.unit;
-    let (start, end) = (unit.of(times.open_start), unit.of(times.open_start + times.length));
-    // The sync is shown where it does not make the triggers small.
-    let edge = times.delay.map(|delay| start - unit.of(delay.seconds));
-    let edge = edge.filter(|edge| start - edge < end - start);
-    let first = edge.unwrap_or(start);
-    let room = 0.03 * (end - first);
+pub fn svg(name: &str, times: &Plan) -> Result<String, Box<dyn Error>> {
+    let (unit, zero) = (times.unit, times.origin());
+    let [start, end] = [times.start, times.start + times.length].map(|time| unit.of(time - zero));
     let title = format!("The triggers of the shutter {name} over time, as measured");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let triggers = count(times.triggers.len() as u64, "trigger");
         let facts = format!("no curve: {triggers} as measured");
         write_heading(&heading, SIZE.0, name, &facts)?;
-        let (time, places) = (format!("time ({})", unit.name()), decimals(end - start, 3));
-        let across =
-            Axis { range: first - room..end + room, name: Some(&time), labels: 11, label: &|t| trimmed(*t, places) };
+        let (time, places) = (time_axis(times), decimals(end - start, 3));
+        let across = Axis { range: time_range(times), name: Some(&time), labels: 11, label: &|t| trimmed(*t, places) };
         let up = Axis { range: 0.0..1.2, name: None, labels: 6, label: &|_| String::new() };
         let mut graph = axes(&rest, across, up, 20)?;
-        let marks = times.triggers.iter().map(|trigger| (unit.of(trigger.time), 1.0));
+        let marks = times.triggers.iter().map(|trigger| (unit.of(trigger.time - zero), 1.0));
         draw_marks(&mut graph, marks, |(t, y)| vec![(t, 0.0), (t, y)])?;
-        for (t, words) in edge.map(|t| (t, "sync")).into_iter().chain([(start, "opens")]) {
+        let edge = is_near(times).then_some((0.0, "sync"));
+        for (t, words) in edge.into_iter().chain([(start, "opens")]) {
             graph.draw_series([PathElement::new([(t, 0.0), (t, 1.0)], pen(INK, 1.2))])?;
             let label = chart::text(13 * SCALE, HPos::Left, VPos::Bottom);
             let place = EmptyElement::at((t, 1.0));

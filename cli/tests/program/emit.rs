@@ -12,17 +12,18 @@ use serde_json::Value;
 use shutter::emit::{Form, emit, identifier, module, several};
 use shutter::lamp::Lamp;
 use shutter::plan::{Plan, Trigger};
-use shutter::planned::Planned;
+
+use shutter_curve::ShutterCurve;
 
 use crate::refusals::{BOX, MEASURED};
 use crate::support::{Folder, SCENES, has, keys, number, planned, scenes};
 
-fn text(form: Form, name: &str, plan: &Planned) -> String {
+fn text(form: Form, name: &str, plan: &Plan) -> String {
     emit(form, name, plan, false).unwrap()
 }
 
-fn plan(planned: &Planned) -> &Plan {
-    planned.plan().unwrap()
+fn curve_of(plan: &Plan) -> &ShutterCurve {
+    &plan.curve.as_ref().unwrap().shutter
 }
 
 fn has_pulses(plan: &Plan) -> bool {
@@ -38,11 +39,8 @@ fn output(command: &mut Command) -> String {
 }
 
 /// The triggers or pulses, as the test programs print them.
-fn lines(planned: &Planned) -> String {
-    match planned {
-        Planned::Curve(plan) => plan.triggers.iter().map(line).collect(),
-        Planned::Times(times) => times.triggers.iter().map(|it| format!("{}\n", it.ticks)).collect(),
-    }
+fn lines(planned: &Plan) -> String {
+    planned.triggers.iter().map(line).collect()
 }
 
 fn line(trigger: &Trigger) -> String {
@@ -99,7 +97,7 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
     let [mut alone, mut curves] = [const { Vec::new() }; 2];
     let (mut main, mut expected) = (String::new(), String::new());
     for (name, planned) in scenes() {
-        let (module, plan) = (format!("scene_{}", name.replace('-', "_")), plan(&planned));
+        let (module, plan) = (format!("scene_{}", name.replace('-', "_")), &planned);
         let curve = emit(Form::Rust, &name, &planned, true).unwrap();
         let text = text(Form::Rust, &name, &planned);
         assert!(!text.contains("shutter_curve") && curve.starts_with(&text), "{text}");
@@ -127,7 +125,7 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
             );
         }
         main += "println!(\"{:08x}\", curve::SHUTTER.exposure().to_bits()); }\n";
-        expected += &format!("{}{:08x}\n", lines(&planned), plan.curve.exposure().to_bits());
+        expected += &format!("{}{:08x}\n", lines(&planned), curve_of(&planned).exposure().to_bits());
         curves.push(format!("{module}_curve"));
         alone.push(module);
     }
@@ -166,7 +164,7 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
         }"#;
     let mut expected = String::from("4247 4\n");
     for (name, speed) in &late {
-        let ticks: Vec<_> = plan(speed).triggers.iter().map(|trigger| trigger.ticks).collect();
+        let ticks: Vec<_> = speed.triggers.iter().map(|trigger| trigger.ticks).collect();
         expected += &format!("{name} 4247 {ticks:?}\n");
     }
     expected += "4247 [1000, 1500, 2100]\n4000 [1000, 2000, 3000, 4000]\n";
@@ -203,7 +201,7 @@ fn c_compiles_in_one_file_and_holds_the_same_ticks() {
     for (name, planned) in &scenes {
         folder.write(&format!("{name}.h"), text(Form::C, name, planned));
         includes += &format!("#include \"{name}.h\"\n").repeat(2);
-        let (plan, lower) = (plan(planned), name.replace('-', "_"));
+        let (plan, lower) = (planned, name.replace('-', "_"));
         let upper = lower.to_ascii_uppercase();
         let print = match has_pulses(plan) {
             true => format!("\"%lu %lu\\n\", (unsigned long){lower}_on[i], (unsigned long){lower}_off[i]"),
@@ -214,12 +212,12 @@ fn c_compiles_in_one_file_and_holds_the_same_ticks() {
             for (unsigned i = 0; i < {upper}_COUNT; i++) printf({print});\n"
         );
         expected += &format!("{}\n{}", plan.timer.hz, lines(planned));
-        if let Some(delay) = plan.delay {
+        if let Some(delay) = plan.sync.delay {
             body += &format!("printf(\"%lu %d\\n\", (unsigned long){upper}_DELAY_TICKS, {upper}_SYNC_FALLS);\n");
-            expected += &format!("{} {}\n", delay.ticks, u8::from(delay.falls.unwrap()));
+            expected += &format!("{} {}\n", plan.sync.ticks, u8::from(delay.falls.unwrap()));
         }
     }
-    assert!(scenes.iter().any(|(_, planned)| planned.delay.is_some()));
+    assert!(scenes.iter().any(|(_, planned)| planned.sync.delay.is_some()));
     assert_eq!(compiled(&folder, &includes, &body), expected);
 }
 
@@ -238,7 +236,7 @@ fn two_different_headers_of_one_name_do_not_compile() {
 }
 
 /// The speeds of a shutter: three exposures of the same leaves, on one timer.
-fn speeds(changes: &str) -> Vec<(String, Planned)> {
+fn speeds(changes: &str) -> Vec<(String, Plan)> {
     let set_up = if changes.contains("duty") { "in_path" } else { "emulated" };
     let speed = |(name, length): (&str, f64)| {
         let curve = format!("open_end = 0.5; close_start = {}; close_end = {length}", length - 0.5);
@@ -274,7 +272,7 @@ fn speeds_are_an_array_of_c() {
             }}"
         );
         let expected = plans.iter().zip(names).map(|((_, speed), name)| {
-            let delay = speed.delay.map_or(0, |delay| delay.ticks);
+            let delay = speed.sync.ticks;
             format!("{name} 1000000 {delay}\n{}", lines(speed))
         });
         assert_eq!(compiled(&folder, &includes.concat(), &body), expected.collect::<String>());
@@ -408,7 +406,9 @@ fn hardware_gets_nothing_that_nobody_gave() {
         assert_eq!(told, format!("leaf: {reason}"));
         reason
     };
-    let head = "hardware needs what only you know; write it into the scene, or say --set-up, --timer-hz, --sync-falls:";
+    let head = "hardware needs what only you know; write it below [flashes], or say --set-up, --timer-hz, --min-gap, \
+                --sync-falls:";
+    let gap = "\n  min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing";
     let timer = "\n  timer_hz = ...       # your timer's rate, in Hz";
     let edge = "\n  sync_falls = ...     # true, or false if the delay counts from an edge that rises";
     let set_up = "
@@ -417,9 +417,13 @@ fn hardware_gets_nothing_that_nobody_gave() {
   set_up = \"in_path\"   # this shutter is in the light's path, and dims them to 43.5, 100 and 51.2 %; all alike
                        # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)";
     assert_eq!(without("timer_hz"), format!("{head}{timer}"));
-    assert_eq!(without("sync_falls"), format!("{head}{edge}"));
+    assert_eq!(without("min_gap"), format!("{head}{gap}"));
+    assert_eq!(
+        without("sync_falls = false # the edge of the camera's sync that triggered the oscilloscope -> "),
+        format!("{head}{edge}")
+    );
     assert_eq!(without("set_up"), format!("{head}{set_up}"));
-    assert_eq!(without("set_up; timer_hz; sync_falls"), format!("{head}{set_up}{timer}{edge}"));
+    assert_eq!(without("set_up; timer_hz; min_gap"), format!("{head}{set_up}{timer}{gap}"));
     // Nobody is left with the one set-up that is offered.
     let times = planned(crate::refusals::TIMES, "");
     let asked = emit(Form::C, "times", &times, false).unwrap_err();
@@ -427,7 +431,7 @@ fn hardware_gets_nothing_that_nobody_gave() {
 }
 
 /// Trigger times without a curve, with a delay, and a speed that has one.
-fn measured() -> [(String, Planned); 2] {
+fn measured() -> [(String, Plan); 2] {
     let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2.0004, 2.5, 3.1]\nmin_gap = 0.1\n";
     let curve =
         "unit = 'ms'\nopen_start = 0\nopen_end = 1\nclose_start = 4\nclose_end = 5\ntriggers = 4\nmin_gap = 0\n";
@@ -469,7 +473,7 @@ fn times_without_a_curve_are_told_to_be_so() {
 struct Row {
     index: usize,
     u: f32,
-    time_s: f32,
+    time_s: f64,
     ticks: u32,
     gap_ticks: Option<u32>,
     from_edge_ticks: Option<u32>,
@@ -493,8 +497,8 @@ struct Document {
 }
 
 /// Both hold the numbers of the plan.
-fn csv_and_json_are_right(name: &str, planned: &Planned) {
-    let plan = plan(planned);
+fn csv_and_json_are_right(name: &str, planned: &Plan) {
+    let plan = planned;
     let csv = text(Form::Csv, name, planned);
     let rows = csv::Reader::from_reader(csv.as_bytes()).into_deserialize().map(Result::unwrap);
     let json: Document = serde_json::from_str(&text(Form::Json, name, planned)).unwrap();
@@ -502,19 +506,19 @@ fn csv_and_json_are_right(name: &str, planned: &Planned) {
         assert_eq!(rows.len(), plan.triggers.len(), "{name}");
         for (i, (row, trigger)) in rows.iter().zip(&plan.triggers).enumerate() {
             let pulse = row.on_ticks.zip(row.off_ticks);
-            let read = Trigger { u: row.u, time: row.time_s, ticks: row.ticks, pulse };
-            let edge = plan.delay.map(|delay| delay.ticks + row.ticks);
+            let read = Trigger { u: Some(row.u), time: row.time_s, ticks: row.ticks, pulse };
+            let edge = plan.sync.delay.map(|_| plan.sync.ticks + row.ticks);
             assert_eq!((row.index, read, row.from_edge_ticks), (i, *trigger, edge), "{name}");
         }
         let gaps = rows.iter().map(|row| row.gap_ticks);
         assert!(gaps.eq([None].into_iter().chain(plan.gaps().map(Some))), "{name}");
     }
     assert_eq!((json.scene.as_str(), json.timer_hz), (name, plan.timer.hz));
-    assert_eq!(json.exposure_s, plan.curve.exposure());
-    assert_eq!(json.efficiency, plan.curve.efficiency());
+    assert_eq!(json.exposure_s, curve_of(plan).exposure());
+    assert_eq!(json.efficiency, curve_of(plan).efficiency());
     assert!(json.opening_s >= 0.0 && json.half_open_s > 0.0);
-    assert_eq!(json.direct_triggers, plan.curve.direct_triggers());
-    let delay = plan.delay.map(|delay| (delay.seconds, delay.ticks));
+    assert_eq!(json.direct_triggers, curve_of(plan).direct_triggers());
+    let delay = plan.sync.delay.map(|delay| (delay.seconds, plan.sync.ticks));
     assert_eq!(json.delay_s.zip(json.delay_ticks), delay);
     assert_eq!(json.delta_ev.is_some(), plan.nominal.is_some());
 }
@@ -540,14 +544,14 @@ fn csv_and_json_parse_and_hold_the_same_numbers() {
 }
 
 /// The module's curve has the numbers of the plan.
-fn curve_is_right(planned: &Planned) {
+fn curve_is_right(planned: &Plan) {
     let rust = emit(Form::Rust, "x", planned, true).unwrap();
     let (linear, cubic) = (rust.split_once("linear("), rust.split_once("shutteropening("));
     let (_, numbers) = linear.or(cubic).unwrap();
     let numbers = numbers.split(['[', ']', '(', ')', ',', ' ', '\n']);
     let numbers: Vec<f32> =
         numbers.map_while(|it| if it.is_empty() { Some(None) } else { it.parse().ok().map(Some) }).flatten().collect();
-    let shape = plan(planned).shape;
+    let shape = planned.curve.as_ref().unwrap().shape;
     assert_eq!(numbers, [&shape.times[..], shape.inner.as_slice().concat().as_slice()].concat());
 }
 

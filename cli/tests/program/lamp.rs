@@ -4,25 +4,25 @@
 use serde_json::{Value, json};
 use shutter::emit::{Form, emit};
 use shutter::lamp::SetUp;
-use shutter::planned::Planned;
+use shutter::plan::Plan;
 
 use crate::refusals::{LEAF, with};
 use crate::support::{Folder, has, planned, report, table};
 
-fn hardware(changes: &str) -> Planned {
+fn hardware(changes: &str) -> Plan {
     planned(LEAF, &format!("timer_hz = 1_000_000; set_up = 'in_path'; {changes}"))
 }
 
-fn text(form: Form, plan: &Planned) -> String {
+fn text(form: Form, plan: &Plan) -> String {
     emit(form, "scene", plan, false).unwrap()
 }
 
-fn object(plan: &Planned) -> Value {
+fn object(plan: &Plan) -> Value {
     serde_json::from_str(&text(Form::Json, plan)).unwrap()
 }
 
 /// A column of the objects.
-fn column(plan: &Planned, key: &str) -> Vec<f64> {
+fn column(plan: &Plan, key: &str) -> Vec<f64> {
     object(plan)["triggers"].as_array().unwrap().iter().map(|it| it[key].as_f64().unwrap()).collect()
 }
 
@@ -89,7 +89,7 @@ fn a_lamps_lag_is_taken_off() {
     assert_eq!(edges, [2250.0, 1750.0, 2750.0]);
     let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2, 3]\ntimer_hz = 1000\nmin_gap = 0\n\
                  set_up = 'emulated'\nlamp_lag = 1";
-    assert_eq!(column(&Planned::parse(times).unwrap(), "ticks"), [0.0, 1.0]);
+    assert_eq!(column(&planned(times, ""), "ticks"), [0.0, 1.0]);
 }
 
 /// Without a rate there are times, and no tick of a rate that nobody gave.
@@ -98,11 +98,11 @@ fn a_scene_without_a_timer_is_reported_in_times() {
     let text = report(&planned(LEAF, "delay = 2; duty = 0.5; timer_bits = 16"));
     has(&text, &["timer        none, so there are times alone; timer_hz gives ticks\n"], &[]);
     let (_, below) = text.split_once("\n    #").unwrap();
-    assert!(!below.contains("ticks") && !below.contains("edge") && !text.contains("drift"), "{text}");
+    assert!(!below.contains("ticks") && !text.contains("drift"), "{text}");
     // The first pulse, of a quarter of the first share: from 0.34375 to 1.03125 ms of full light.
     let first = &table(&text)[0];
     let row: Vec<f64> = first.iter().filter_map(|it| it.parse().ok()).collect();
-    let time = |light: f64| 1.0 + if light < 0.5 { (2.0 * light).sqrt() } else { 0.5 + light };
+    let time = |light: f64| 2.0 + if light < 0.5 { (2.0 * light).sqrt() } else { 0.5 + light };
     for (told, light) in row[2..].iter().zip([0.6875, 0.34375, 1.03125]) {
         assert!((told - time(light)).abs() < 1e-5, "{row:?}");
     }
@@ -116,40 +116,49 @@ fn a_scene_without_a_timer_is_reported_in_times() {
 #[test]
 fn the_command_line_answers_for_one_run() {
     let folder = Folder::new("line");
-    folder.write("scene.toml", with(LEAF, "delay = 2; pulse = 0.1"));
+    folder.write("scene.toml", with(LEAF, "delay = 2"));
+    folder.write("pulse.toml", with(LEAF, "delay = 2; pulse = 0.1"));
     let line = "plan scene.toml --emit json --timer-hz 1MHz";
     let answers = format!("{line} --set-up in_path --sync-falls true");
-    for (more, keys) in [("", "pulse = 0.1"), ("--fully-open", "fully_open = true"), ("--duty 0.5", "duty = 0.5")] {
+    for (more, keys) in [
+        ("--pulse 100us", "pulse = 0.1"),
+        ("--fully-open --lamp-lag 1ms", "fully_open = true; lamp_lag = 1"),
+        ("--duty 0.5 --min-pulse 10us", "duty = 0.5; min_pulse = 0.01"),
+    ] {
         let whole = hardware(&format!("delay = 2; sync_falls = true; {keys}"));
         let run = folder.run(&format!("{answers} {more}")).well();
         assert_eq!(run.out, text(Form::Json, &whole));
         // In every form, a table as well.
-        assert_eq!(run.err.contains("dims the flashes to"), more.is_empty(), "{}", run.err);
+        assert_eq!(run.err.contains("dims the flashes to"), more.contains("--pulse"), "{}", run.err);
     }
     folder.refuses(&[
         (&format!("{answers} --duty 0.5 --fully-open"), "cannot be used with"),
+        // As in the file: no pulse is dropped without a word.
+        ("plan pulse.toml --fully-open --set-up in_path", "fully_open: it is for flashes whose length"),
+        ("plan pulse.toml --duty 0.5", "duty: a scene has `duty` or `pulse`"),
         (line, "set_up = \"in_path\""),
         (line, "sync_falls"),
     ]);
 }
 
-/// What a scene keeps of its fit goes along: the bound of the efficiency, and each doubt.
+/// What a scene keeps of its fit goes along: the bound of the efficiency, and each doubt. Comments are comments.
 #[test]
 fn what_the_fit_doubted_is_in_every_form() {
-    let head = "# Fitted to x.csv: straight ramps.\n\
-                # Exposure 5.5 ± 0.1 ms, efficiency at most 80 %, standard errors behind ±.\n\
-                # Warning: the lamp flickers.\n";
+    let measured = "[shutter.measured]\ntrace = \"x.csv\"\nmodel = \"straight ramps\"\nunit = \"ms\"\nexposure = 5.5\n\
+                    exposure_error = 0.1\nefficiency = \"at most 80 %\"\nwarnings = [\"the lamp flickers\"]\n[flashes]";
+    let comments = "# Exposure bracket: 3 frames\n# Warning: do not look into the lamp\n";
     let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2]\nmin_gap = 0\n";
-    for scene in [&with(LEAF, "triggers = 4 -> triggers = 4\n# Warning: not the fit's."), times] {
-        let text = with(&format!("{head}{scene}"), "set_up = 'emulated'; timer_hz = 1000");
-        let plan = Planned::parse(&text).unwrap();
+    for scene in [LEAF, times] {
+        let text = comments.to_string()
+            + &with(scene, &format!("set_up = 'emulated'; timer_hz = 1_000_000; [flashes] -> {measured}"));
+        let plan = Plan::parse(&text).unwrap();
         for form in [Form::Rust, Form::C] {
             let text = self::text(form, &plan);
-            let measured = "measured     exposure 5.5 ± 0.1 ms, efficiency at most 80 %\n";
-            has(&text, &[measured, "doubt        the lamp flickers.\n"], &["not the fit's"]);
+            let measured = "measured     exposure 5.50 ± 0.10 ms, efficiency at most 80 %\n";
+            has(&text, &[measured, "doubt        the lamp flickers\n"], &["bracket", "do not look"]);
         }
-        assert_eq!(object(&plan)["doubts"], json!(["the lamp flickers."]));
-        has(&report(&plan), &["\ndoubt        the lamp flickers.\n"], &[]);
+        assert_eq!(object(&plan)["doubts"], json!([{ "code": "trace", "text": "the lamp flickers", "remedy": null }]));
+        has(&report(&plan), &["\ndoubt        the lamp flickers\n"], &["do not look"]);
     }
 }
 

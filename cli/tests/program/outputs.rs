@@ -4,8 +4,11 @@
 use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};
 
-use crate::refusals::{TRAPEZOID, with};
-use crate::support::{Folder, Run, has, leaf};
+use serde_json::Value;
+use shutter::scene::Written;
+
+use crate::refusals::{MEASURED, TRAPEZOID, with};
+use crate::support::{Folder, Run, has, leaf, number};
 
 /// A folder with a scene and a trace of straight ramps.
 fn folder(name: &str) -> Folder {
@@ -161,17 +164,11 @@ fn a_fit_is_not_lost_with_its_files() {
         ("fit none.csv --out none/leaf.toml", "its folder is not there"),
         ("fit none.csv --out ok.toml --picture none/leaf.svg", "its folder is not there"),
     ]);
-    folder.exec("fit trace.csv --out leaf.toml").well();
-    folder.write("leaf.toml", folder.text("leaf.toml").replace("min_gap = 0 ", "min_gap = 9 "));
     // Five nanoseconds are too short for sixteen triggers.
     folder.write("ns.csv", leaf(1.0).replace("time_ms", "time_ns"));
-    for (args, reason) in [
-        ("fit trace.csv --out leaf.toml", "with what it keeps"),
-        ("fit ns.csv --out ns.toml", "ask for fewer triggers (--triggers)"),
-    ] {
-        folder.keeps(&[(args, reason)]);
-        assert!(folder.exec(args).out.contains("\nexposure     5.00"), "{args}");
-    }
+    let args = "fit ns.csv --out ns.toml";
+    folder.keeps(&[(args, "ask for fewer triggers (--triggers)")]);
+    assert!(folder.exec(args).out.contains("\nexposure     5.00"));
     folder.exec("fit ns.csv --out ns.toml --triggers 4").well();
 }
 
@@ -210,7 +207,7 @@ fn devices_and_pipes_are_written_to() {
         assert!(out.ends_with("</svg>\n"), "{out}");
     }
     assert!(folder.text("text").contains("exposure"));
-    let plan = "$shutter plan - --set-up emulated --timer-hz 1MHz --emit csv --to -";
+    let plan = "$shutter plan - --set-up emulated --timer-hz 1MHz --min-gap 0 --emit csv --to -";
     let out = folder.shell(&format!("$shutter fit trace.csv --out - | {plan}")).well().out;
     assert!(out.starts_with("scene,index,u,"), "{out}");
     let json = folder.shell("$shutter fit - --report json < trace.csv");
@@ -311,7 +308,7 @@ fn what_cannot_be_written_leaves_nothing() {
     let folder = folder("unwritten");
     fs::create_dir(folder.path("taken.svg")).unwrap();
     folder.write("leaf.h", "/* old */\n");
-    folder.write("bare.toml", TRAPEZOID);
+    folder.write("bare.toml", with(TRAPEZOID, ""));
     folder.keeps(&[
         ("plan --set-ups ok.svg --out taken.svg", "it is a folder"),
         ("plan --set-ups ok.svg --out none/new.svg", "its folder is not there"),
@@ -333,90 +330,116 @@ fn what_cannot_be_written_leaves_nothing() {
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
 }
 
+/// A scene's text without its shutter, and its shutter.
+fn apart(scene: &str) -> (String, &str) {
+    let at = Written::find(scene).unwrap().at;
+    (format!("{}{}", &scene[..at.start], &scene[at.end..]), &scene[at])
+}
+
+/// What a fit measures, it replaces as a whole; what a hand wrote, it never touches.
 #[test]
-fn a_new_fit_keeps_what_a_user_wrote() {
+fn a_fit_replaces_its_table_and_nothing_else() {
     let folder = folder("kept");
     let fit = |args: &str| folder.exec(&format!("fit {args} --out leaf.toml")).well().err;
     let scene = || folder.text("leaf.toml");
-    let wrote = "wrote leaf.toml\nnext: write set_up, timer_hz, sync_falls into the scene, then \
-                 shutter plan leaf.toml --emit rust --to leaf.rs\n";
+    let next = "next: shutter plan leaf.toml --set-up emulated|in_path --timer-hz HERTZ --min-gap TIME";
+    let wrote = format!("wrote leaf.toml\n{next} --sync-falls true|false --emit rust --to leaf.rs\n");
     assert_eq!(fit("trace.csv --sync 0"), wrote);
     let first = scene();
-    // Of its own it keeps nothing, and piles nothing up.
-    assert_eq!((fit("trace.csv --sync 0").as_str(), scene()), (wrote, first.clone()));
-    let edited = first
-        .replace("# timer_hz = ... # your timer's rate, in Hz", "timer_hz = 84_000_000 # TIM2")
-        .replace("# sync_falls = ... # true, or", "sync_falls = false # not true, nor")
-        .replace("# set_up = \"in_path\" #", "set_up = \"in_path\" #")
-        .replace("min_gap = 0 ", "min_gap = 0.1 ")
-        .replace("triggers = 16", "# as many as the LED takes\ntriggers = 5")
-        .replace("open_start = ", "duty = 0.3\n# by the scope\nopen_start = ")
-        + "# the end\n";
-    folder.write("leaf.toml", &edited);
+    assert_eq!((fit("trace.csv --sync 0"), scene()), (wrote, first.clone()), "nothing piles up");
+    // All of it but the shutter is the user's, wherever it stands and whatever it is.
+    let own = "# by the scope\n# Exposure bracket: 3 frames\n[flashes] # mine\nunit='us'\ntriggers = 5.0\n\
+               timer_hz = 84_000_000 # TIM2\nmin_gap =  100\nset_up = \"in_path\"\nduty = 0.3\n# Warning: hot\n\n";
+    let (_, shutter) = apart(&first);
     folder.write("slow.csv", leaf(2.0));
-    let err = fit("slow.csv --nominal 1/125");
-    has(&err, &["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "in_path", "comments"], &[]);
-    assert!(err.ends_with("\nnext: shutter plan leaf.toml --emit rust --to leaf.rs\n"), "{err}");
-    has(
-        &scene(),
-        &[
-            "\ntimer_hz = 84_000_000 # TIM2\n",
-            "\n# as many as the LED takes\n",
-            "\ntriggers = 5\n",
-            "\n# by the scope\n",
-            "\nduty = 0.3\n",
-            "\nnominal = 8\n",
-            " holds\n# Fitted to slow.csv",
-            "# the end\n",
-            "\nset_up = \"in_path\"",
-            "\nsync_falls = false",
-            "\nopen_start = 4.0",
-            "± ",
-        ],
-        // What the user has answered is asked no more.
-        &["trace.csv", "# delay = ?", "# set_up", "# sync_falls", "# timer_hz"],
-    );
-    has(&fit("slow.csv --nominal 1/100 --sync 1ms"), &[], &["nominal", "delay"]);
-    has(&scene(), &["\nnominal = 10\n", "\ndelay = 3.0"], &[]);
-    assert_eq!(scene().matches("# From the edge of the camera's sync").count(), 1, "{}", scene());
-    // Comments in an array, and a count with a point, are kept; lines of an older fit are not, whatever stands between.
-    let own = first.replace("# Exposure ", "# of Monday\n# Exposure ");
-    folder.write("leaf.toml", own.replace("triggers = 16", "triggers = 12.0"));
-    fit("trace.csv --sync 0");
-    has(&scene(), &["# of Monday\n", "\ntriggers = 12\n"], &[]);
-    assert_eq!(scene().matches("\n# Exposure ").count(), 1, "{}", scene());
-    let array = "trigger_times = [ # by hand\n  1, 2, # late\n]\nopen_start = ";
-    folder.write("leaf.toml", first.replace("open_start = ", array));
-    fit("trace.csv --sync 0");
-    has(&scene(), &["\n# by hand\n# late\nopen_start = "], &[]);
-    // What is asked for counts, in the unit of the scene.
-    let mine = "unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n";
-    folder.write("leaf.toml", mine);
-    folder.keeps(&[("fit trace.csv --out leaf.toml", "no scene that a fit wrote")]);
-    let (mark, _) = first.split_once('\n').unwrap();
-    folder.write("leaf.toml", format!("{mark}\n{mine}"));
-    fit("trace.csv --triggers 6");
-    has(
-        &scene(),
-        &[
-            "unit = 'us'\n# set_up = ",
-            "min_gap = 200\n# mine\nopen_start = 20",
-            " # too\n",
-            " # gone\n",
-            "\ntriggers = 6\n",
-        ],
-        &[],
-    );
-    // What it keeps has to go with the shutter; a file that is no scene is not replaced.
-    for (text, reason) in [
-        (edited.replace("min_gap = 0.1", "min_gap = 3"), "with what it keeps, pulses 0 and 1"),
-        ("[package]\nname = 'mine'\n".into(), "--force"),
-    ] {
-        folder.write("leaf.toml", text);
-        folder.keeps(&[("fit trace.csv --out leaf.toml", reason)]);
+    for edited in [format!("{own}{shutter}# the end\n"), format!("# of Monday\n\n{shutter}\n{own}")] {
+        folder.write("leaf.toml", &edited);
+        let err = fit("slow.csv --nominal 1/125");
+        assert_eq!(err, "wrote leaf.toml\nnext: shutter plan leaf.toml --emit rust --to leaf.rs\n");
+        let now = scene();
+        assert_eq!(apart(&now).0, apart(&edited).0);
+        // Neither a delay nor a spread that it did not measure is left.
+        has(&now, &["\nnominal = 8.0\n", "\nopen_start = 4.0", "\ntrace = \"slow.csv\"\n"], &["delay", "trace.csv"]);
+        assert_eq!(folder.exec("plan leaf.toml --emit json").well().err, "");
     }
+    // The unit stays, since the flashes may count in it.
+    let us = first.replace("unit = \"ms\"", "unit = \"us\"");
+    folder.write("leaf.toml", &us);
     fit("trace.csv --sync 0 --force");
-    assert_eq!(scene(), first);
+    has(&scene(), &["[shutter]\nunit = \"µs\"\nopen_start = 20", "\ndelay = 20"], &[]);
+    // What a hand changed in the shutter is not lost, be it a comment.
+    let below = "you have changed what a fit wrote below [shutter]; what is yours belongs below [flashes]";
+    for (from, to) in [
+        ("open_start", "# mine\nopen_start"),
+        ("\nshots", " # mine\nshots"),
+        ("delay = ", "delay = 1"),
+        ("checksum = \"", "nominal = 1\nchecksum = \""),
+        ("unit = \"ms\"", "unit = \"us\""),
+    ] {
+        let edited = first.replacen(from, to, 1);
+        folder.write("leaf.toml", &edited);
+        folder.keeps(&[(
+            "fit slow.csv --out leaf.toml",
+            if to.contains("nominal") { "that a fit wrote" } else { below },
+        )]);
+        if !to.contains("nominal") {
+            let told = "doubt        what a fit wrote below [shutter] was changed by hand since";
+            has(&folder.exec("plan leaf.toml").well().out, &[told], &[]);
+            fit("trace.csv --sync 0 --force");
+            assert_eq!(apart(&scene()).0, apart(&edited).0);
+        }
+    }
+    // Editors may end lines otherwise.
+    folder.write("leaf.toml", first.replace('\n', "\r\n"));
+    fit("trace.csv --sync 0");
+    // What no fit wrote, and an option against what is the user's.
+    folder.write("leaf.toml", &first);
+    folder.keeps(&[(
+        "fit trace.csv --triggers 6 --out leaf.toml",
+        "it has triggers = 16 below [flashes], which are yours",
+    )]);
+    for text in [MEASURED.replace("[shutter.measured]", "[shutter.own]"), "[package]\nname = 'mine'\n".into()] {
+        folder.write("leaf.toml", text);
+        folder
+            .keeps(&[("fit trace.csv --out leaf.toml", "it holds no scene that a fit wrote; --force replaces it all")]);
+    }
+    folder.write("leaf.toml", with(TRAPEZOID, ""));
+    folder.keeps(&[("fit trace.csv --out leaf.toml", "no fit wrote its [shutter]; --force")]);
+    fit("trace.csv --sync 0 --force");
+    has(&scene(), &["triggers = 7\ntimer_hz = 1000\n"], &["# Yours"]);
+    // Flashes that do not go with the shutter are told, and the scene is there for its user to mend them.
+    folder.write("leaf.toml", first.replace("# min_gap = 0.1", "min_gap = 9"));
+    has(&fit("trace.csv --sync 0"), &["warning: leaf.toml: as it is, triggers: triggers 0 and 1 come "], &[]);
+}
+
+/// The lamp does not fire in the dark: the delay is that of the last fit, or a hand's.
+#[test]
+fn no_delay_is_older_than_its_trace() {
+    let folder = folder("stale");
+    let ticks = |args: &str| {
+        let line = format!("plan leaf.toml --timer-hz 1MHz --sync-falls false --min-gap 0 --emit json {args}");
+        let run = folder.exec(&line).well();
+        let json: Value = serde_json::from_str(&run.out).unwrap();
+        (json["delay_ticks"].as_u64(), number(&json["triggers"][0], "from_edge_ticks"), run.err)
+    };
+    folder.exec("fit trace.csv --sync 0 --out leaf.toml").well();
+    let (delay, early, _) = ticks("--set-up emulated");
+    assert_eq!(delay, Some(2001));
+    // An X contact: the edge comes when the shutter is open.
+    folder.exec("fit trace.csv --sync 4.1ms --out leaf.toml").tells(&["the edge of the sync comes after"]);
+    let line = "plan leaf.toml --timer-hz 1MHz --sync-falls false --min-gap 0 --set-up in_path";
+    let told = "delay: triggers 0 to 3 come, the first 1.343 ms before the edge of the sync; all of up to 3 triggers \
+                come behind it; an earlier contact";
+    folder.keeps(&[(line, "before the edge of the sync")]);
+    has(&folder.exec(line).err, &[&told[..30], "an earlier contact gives more time"], &[]);
+    let (delay, open, _) = ticks("--set-up in_path --fully-open --triggers 2");
+    assert_eq!((delay, open > 0.0), (Some(0), true));
+    // A hand's own wins, and that it differs is told.
+    let own = folder.text("leaf.toml").replace("# delay = 2.5", "sync_falls = false\ndelay = 2.0005");
+    folder.write("leaf.toml", own);
+    let (delay, first, err) = ticks("--set-up emulated");
+    assert_eq!((delay, first), (Some(2001), early));
+    has(&err, &["the delay of 2.0005 ms below [flashes] counts, and the trace has -2.0"], &[]);
 }
 
 /// A speed among several keeps its own.
@@ -425,9 +448,8 @@ fn several_fits_keep_what_a_user_wrote() {
     let folder = folder("kept_speeds");
     folder.write("v1.5.csv", leaf(2.0));
     folder.exec("fit trace.csv v1.5.csv --out .").well();
-    folder.write("v1.5.toml", folder.text("v1.5.toml").replace("min_gap = 0 ", "min_gap = 0.2 "));
+    folder.write("v1.5.toml", folder.text("v1.5.toml").replace("# min_gap = 0.1", "min_gap = 0.2"));
     let err = folder.exec("fit trace.csv v1.5.csv --nominal 1/200,1/100 --out .").well().err;
-    let told = "./v1.5.toml: kept min_gap = 0.2\nwrote ./trace.toml\nwrote ./v1.5.toml\nnext: ";
-    assert!(err.starts_with(told), "{err}");
-    assert!(folder.text("v1.5.toml").contains("nominal = 10\n"));
+    assert!(err.starts_with("wrote ./trace.toml\nwrote ./v1.5.toml\nnext: "), "{err}");
+    has(&folder.text("v1.5.toml"), &["nominal = 10.0\n", "\nmin_gap = 0.2"], &[]);
 }

@@ -1,48 +1,47 @@
 //! docs/scene.md has each key that the program knows, and no other, and says which are required.
 
-use shutter::planned::Planned;
+use shutter::scene::{Flashes, Scene, Shutter};
 
-/// The cells of each row: the key, and what holds without it.
-fn rows() -> Vec<(&'static str, &'static str)> {
-    let rows = include_str!("../../../docs/scene.md").lines().filter(|line| line.starts_with("| `"));
-    rows.map(|row| {
-        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-        (cells[1].trim_matches('`'), cells[3])
-    })
-    .collect()
-}
-
-/// What the program expects where it finds another key.
-fn known(scene: &str) -> Vec<String> {
-    let fault = Planned::parse(&format!("other = 0\n{scene}")).err().expect("no such key");
-    let reason = fault.reason();
-    let (_, expected) = reason.split_once("expected one of ").expect("a list of keys");
-    expected.split('`').skip(1).step_by(2).map(String::from).collect()
+/// The keys of a table of the page, and what holds without each.
+fn rows(table: &str) -> Vec<(&'static str, &'static str)> {
+    let page = include_str!("../../../docs/scene.md");
+    let (_, below) = page.split_once(&format!("\n## `[{table}]`")).expect("its heading");
+    let rows = below.lines().take_while(|line| !line.starts_with("## ")).filter(|line| line.starts_with("| `"));
+    let cells = rows.map(|row| row.split(" | ").collect::<Vec<_>>());
+    cells.map(|cells| (cells[0].trim_start_matches("| ").trim_matches('`'), cells[2])).collect()
 }
 
 #[test]
 fn the_page_has_every_key() {
-    let mut told: Vec<&str> = rows().iter().map(|row| row.0).collect();
-    let mut keys = known("");
-    keys.sort();
-    told.sort();
-    assert_eq!(told, keys);
-    let of_times = known("trigger_times = [1]");
-    assert!(of_times.iter().all(|key| told.contains(&key.as_str())), "{of_times:?}");
+    let keys = |table: serde_json::Value| table.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let [shutter, flashes] = [
+        keys(serde_json::to_value(Shutter::default()).unwrap()),
+        keys(serde_json::to_value(Flashes::default()).unwrap()),
+    ];
+    for (table, mut known) in [("shutter", shutter), ("flashes", flashes)] {
+        let mut told: Vec<&str> = rows(table).iter().map(|row| row.0).collect();
+        known.retain(|key| key != "measured");
+        (told.sort(), known.sort());
+        assert_eq!(told, known);
+        let fault = Scene::parse(&format!("[shutter]\n[flashes]\n[{table}.none]\n")).unwrap_err().reason();
+        assert!(known.iter().all(|key| fault.contains(&format!("`{key}`"))), "{fault}");
+    }
 }
 
 #[test]
 fn the_page_says_what_is_required() {
-    let required = rows().into_iter().filter(|row| row.1 == "required").map(|row| row.0);
-    let required: Vec<&str> = required.collect();
-    let scene = |without: &str| -> String {
-        let lines = required.iter().zip(1..).filter(|(key, _)| **key != without);
-        let value = |key: &str, place| if key == "min_gap" { 0 } else { place };
-        lines.map(|(key, place)| format!("{key} = {}\n", value(key, place))).collect()
+    let required = |table| rows(table).into_iter().filter(|row| row.1.starts_with("required")).map(|row| row.0);
+    let scene = |without: &str| {
+        let lines = |keys: Vec<&str>| -> String {
+            let keys = keys.iter().zip(1..).filter(|(key, _)| **key != without);
+            keys.map(|(key, place)| format!("{key} = {place}\n")).collect()
+        };
+        let [shutter, flashes] = ["shutter", "flashes"].map(|table| lines(required(table).collect()));
+        format!("[shutter]\n{shutter}[flashes]\n{flashes}")
     };
-    let reason = |without| Planned::parse(&scene(without)).err().map(|fault| fault.reason());
+    let reason = |without: &str| shutter::plan::Plan::parse(&scene(without)).err().map(|fault| fault.reason());
     assert_eq!(reason(""), None);
-    for key in &required {
-        assert_eq!(reason(key), Some(format!("missing field `{key}`")));
+    for key in required("shutter").chain(required("flashes")) {
+        assert_eq!(reason(key), Some(format!("{key}: it is required")));
     }
 }

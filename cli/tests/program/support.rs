@@ -5,7 +5,7 @@ use std::process::Command;
 use std::{env, fs, path::Path};
 
 use serde_json::Value;
-use shutter::planned::Planned;
+use shutter::plan::Plan;
 use shutter_fit::trace::Trace;
 
 use crate::generator::Random;
@@ -15,29 +15,29 @@ use crate::refusals::with;
 pub const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 
 /// Their names and plans. There are straight ramps and others; both kinds of pulses and none.
-pub fn scenes() -> Vec<(String, Planned)> {
+pub fn scenes() -> Vec<(String, Plan)> {
     let files = fs::read_dir(SCENES).unwrap().map(|file| file.unwrap().file_name());
     let mut names: Vec<_> = files.map(|name| name.into_string().unwrap()).collect();
     names.sort();
     let names = names.iter().map(|name| name.trim_end_matches(".toml"));
     let scenes: Vec<_> = names.map(|name| (name.to_string(), scene(name))).collect();
-    let lit = scenes.iter().filter(|it| it.1.plan().unwrap().triggers[0].pulse.is_some());
+    let lit = scenes.iter().filter(|it| it.1.triggers[0].pulse.is_some());
     assert!(scenes.len() >= 8 && lit.count() >= 2);
     scenes
 }
 
-pub fn scene(name: &str) -> Planned {
-    Planned::parse(&fs::read_to_string(format!("{SCENES}/{name}.toml")).unwrap()).unwrap()
+pub fn scene(name: &str) -> Plan {
+    Plan::parse(&fs::read_to_string(format!("{SCENES}/{name}.toml")).unwrap()).unwrap()
 }
 
 /// The plan of a scene with changes.
 #[track_caller]
-pub fn planned(scene: &str, changes: &str) -> Planned {
+pub fn planned(scene: &str, changes: &str) -> Plan {
     let text = with(scene, changes);
-    Planned::parse(&text).unwrap_or_else(|fault| panic!("{}", fault.locate("scene", &text)))
+    Plan::parse(&text).unwrap_or_else(|fault| panic!("{}", fault.locate("scene", &text)))
 }
 
-pub fn report(plan: &Planned) -> String {
+pub fn report(plan: &Plan) -> String {
     shutter::report::text("scene", plan, 80)
 }
 

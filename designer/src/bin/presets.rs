@@ -4,9 +4,12 @@
 use std::error::Error;
 use std::fs;
 
+use designer::flat::{self, KEYS};
 use serde::Serialize;
-use shutter::fault::Code;
-use shutter::scene::{self, KEYS, Scene};
+use serde_json::{Value, json};
+use shutter::fault::{Code, Fault};
+use shutter::plan::Plan;
+use shutter::scene::Scene;
 use shutter_fit::unit::Unit;
 use strum::VariantNames;
 
@@ -17,25 +20,21 @@ const MANIFEST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
 const OFFERED: [&str; 5] = ["leaf", "trapezoid", "box", "liquid-crystal", "measured"];
 
 #[derive(Serialize)]
-struct Preset {
-    name: &'static str,
-    scene: Scene,
-}
-
-#[derive(Serialize)]
 struct Told<'a> {
     repository: Option<&'a str>,
     units: &'a [Unit],
     keys: &'a [&'a str],
     codes: &'a [&'a str],
-    presets: Vec<Preset>,
+    presets: Vec<Value>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let preset = |name| {
         let text = fs::read_to_string(format!("{SCENES}/{name}.toml"))?;
-        let scene = scene::parse(&text).map_err(|fault| fault.locate(name, &text))?;
-        Ok::<_, Box<dyn Error>>(Preset { name, scene })
+        let located = |fault: Fault| fault.locate(name, &text);
+        let scene = Scene::parse(&text).map_err(located)?;
+        Plan::new(&scene).map_err(located)?;
+        Ok::<_, Box<dyn Error>>(json!({ "name": name, "scene": flat::object(&scene) }))
     };
     let presets = OFFERED.into_iter().map(preset).collect::<Result<Vec<_>, _>>()?;
     let manifest = fs::read_to_string(MANIFEST)?;

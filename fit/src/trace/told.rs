@@ -226,8 +226,8 @@ pub enum Warning {
     SyncOthers { edges: usize },
     /// The edge comes after the opening in so many of all shots, by so much at most.
     #[error(
-        "the edge of the sync comes after the start of opening in {few} of {}, by up to {}: it cannot trigger what \
-         comes before it; use an earlier contact",
+        "the edge of the sync comes after the start of opening in {few} of {}, by up to {}: no flash can come before \
+         it; those while the shutter is fully open can (fully_open), as with an X contact",
         counted(.all, "shot"),
         time(.by)
     )]

@@ -1,0 +1,203 @@
+//! What a scene asks of its lamp, and the frames that keep it.
+
+use shutter_curve::ShutterCurve;
+use shutter_fit::unit::Unit;
+
+use crate::fault::{Fault, Pair, Ticks, What};
+use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
+use crate::plan::positive;
+use crate::scene::Scene;
+use crate::timer::Timer;
+
+/// The frames of a shutter, of any number of triggers, and what a scene asks of each, in ticks.
+pub(crate) struct Frames<'a> {
+    pub curve: &'a ShutterCurve,
+    pub timer: Timer,
+    pub unit: Unit,
+    pub lamp: Lamp,
+    /// The ticks until the shutter is closed.
+    end: i64,
+    /// Between the end of one flash and the start of the next.
+    dark: u64,
+    /// What a pulse has to last.
+    lit: u64,
+}
+
+/// What is wrong with a frame.
+#[derive(Clone, Copy)]
+pub(crate) enum Problem {
+    /// A flash and the next, with so many ticks between them.
+    Close(usize, i64),
+    /// A pulse lasts so many ticks.
+    Short(usize, i64),
+    /// The first pulse begins too early, or the last one ends too late.
+    Outside,
+}
+
+impl<'a> Frames<'a> {
+    /// Those of a scene with this curve.
+    ///
+    /// # Errors
+    /// Keys that are out of their range or do not go together.
+    pub fn new(
+        scene: &Scene,
+        curve: &'a ShutterCurve,
+        timer: Timer,
+        min_gap: Option<f64>,
+        end: f64,
+    ) -> Result<Self, Fault> {
+        let (flashes, unit) = (&scene.flashes, scene.unit());
+        let pulse = positive("flashes.pulse", unit, flashes.pulse)?;
+        let min_pulse = positive("flashes.min_pulse", unit, flashes.min_pulse)?;
+        let fully_open = flashes.fully_open == Some(true);
+        let refused = |key, what: What| Err(Fault::new(key, what));
+        const OPEN: &str = "flashes.fully_open";
+        if fully_open && (pulse.is_some() || flashes.duty.is_some()) {
+            return refused(OPEN, What::FullyOpenPulses);
+        }
+        if fully_open && curve.open_end() == curve.close_start() {
+            return refused(OPEN, What::FullyOpenNever);
+        }
+        if flashes.set_up == Some(SetUp::Emulated) && flashes.duty.is_some() {
+            return refused("flashes.duty", What::DutyEmulated);
+        }
+        if flashes.set_up == Some(SetUp::Emulated) && fully_open {
+            return refused(OPEN, What::FullyOpenEmulated);
+        }
+        let lamp = match (pulse, flashes.duty) {
+            _ if fully_open => Lamp::FullyOpen,
+            (Some(_), Some(_)) => return refused("flashes.duty", What::DutyAndPulse),
+            (Some(pulse), None) => {
+                let ticks = (pulse * f64::from(timer.hz)).round();
+                if ticks == 0.0 {
+                    return refused("flashes.pulse", What::PulseOfNoTick { hz: timer.hz });
+                }
+                // The cast saturates; what is so long is refused later.
+                Lamp::Equal { ticks: ticks as u32 }
+            }
+            (None, Some(duty)) => {
+                let duty = duty as f32;
+                if !(duty > 0.0 && duty <= 1.0) {
+                    return refused("flashes.duty", What::Duty);
+                }
+                Lamp::Doses { duty }
+            }
+            (None, None) => Lamp::Triggered,
+        };
+        if min_pulse.is_some() && flashes.duty.is_none() {
+            return refused("flashes.min_pulse", What::MinPulse);
+        }
+        // A timer fires once a tick; a lamp that shines on needs no gap.
+        let least = u64::from(!lamp.has_pulses());
+        let dark = whole_ticks(min_gap.unwrap_or_default(), timer.hz).max(least);
+        let lit = match lamp {
+            Lamp::Triggered | Lamp::FullyOpen => 0,
+            Lamp::Equal { .. } => 1,
+            Lamp::Doses { .. } => whole_ticks(min_pulse.unwrap_or_default(), timer.hz).max(1),
+        };
+        Ok(Self { curve, timer, unit, lamp, end: end as i64, dark, lit })
+    }
+
+    /// Those whose flashes come while the shutter is fully open, if it ever is.
+    pub fn fully_open(&self) -> Option<Self> {
+        let is_open = self.curve.open_end() < self.curve.close_start();
+        is_open.then(|| Self { lamp: Lamp::FullyOpen, dark: self.dark.max(1), lit: 0, ..*self })
+    }
+
+    /// The frame of `n` triggers, if it keeps what is asked for.
+    pub fn checked(&self, n: u32) -> Result<Vec<Flash>, Problem> {
+        // The rate is known to be good.
+        let frame = self.lamp.frame(self.curve, n, self.timer.hz).unwrap_or_default();
+        let less = |ticks: i64, least: u64| i128::from(ticks) < i128::from(least);
+        let gap = |pair: &[Flash]| pair[1].on - pair[0].off;
+        if let Some(i) = frame.windows(2).position(|pair| less(gap(pair), self.dark)) {
+            return Err(Problem::Close(i, gap(&frame[i..])));
+        }
+        let length = |flash: &Flash| flash.off - flash.on;
+        if let Some(i) = frame.iter().position(|flash| less(length(flash), self.lit)) {
+            return Err(Problem::Short(i, length(&frame[i])));
+        }
+        let ends = match self.lamp {
+            Lamp::FullyOpen => FullyOpen::new(self.curve).ticks(self.timer.hz),
+            _ => (0, self.end),
+        };
+        if frame.iter().any(|flash| flash.on < ends.0 || flash.off > ends.1) {
+            return Err(Problem::Outside);
+        }
+        Ok(frame)
+    }
+
+    /// So many triggers keep what is asked for, and one more does not, where `keep` do and `fail` do not.
+    pub fn most(&self, mut keep: u32, mut fail: u32) -> u32 {
+        // Where the openness is 1, a share of the exposure takes its own length; the answer is near what that leaves
+        // room for.
+        let lit = match self.lamp {
+            Lamp::Equal { ticks } => ticks.into(),
+            _ => self.lit,
+        };
+        let room = f64::from(self.curve.exposure()) * f64::from(self.timer.hz);
+        let mut next = (room / self.dark.saturating_add(lit).max(1) as f64) as u32;
+        // Away from there in growing steps, until it lies between two of them.
+        let (mut step, mut is_between) = (1, [false; 2]);
+        while fail - keep > 1 {
+            next = next.clamp(keep + 1, fail - 1);
+            let kept = self.checked(next).is_ok();
+            *(if kept { &mut keep } else { &mut fail }) = next;
+            is_between[usize::from(kept)] = true;
+            next = match (is_between, kept) {
+                ([true, true], _) => keep + (fail - keep) / 2,
+                (_, true) => keep.saturating_add(step),
+                (_, false) => fail.saturating_sub(step),
+            };
+            step = step.saturating_mul(2);
+        }
+        keep
+    }
+
+    /// The longest equal pulse that `n` triggers leave room for, in ticks.
+    fn longest(&self, n: u32) -> i64 {
+        let ticks = Lamp::Triggered.frame(self.curve, n, self.timer.hz).unwrap_or_default();
+        let ticks: Vec<_> = ticks.iter().map(|flash| i64::from(flash.tick)).collect();
+        let dark = i64::try_from(self.dark).unwrap_or(i64::MAX);
+        let apart = ticks.windows(2).map(|pair| (pair[1] - pair[0]).saturating_sub(dark));
+        // Half of it, rounded down, comes before its trigger.
+        let first = ticks.first().map(|first| 2 * first + 1);
+        let last = ticks.last().map(|last| 2 * (self.end - last));
+        apart.chain(first).chain(last).min().unwrap_or_default()
+    }
+
+    /// What is wrong with the frame of `n` triggers, and what would help.
+    pub fn told(&self, problem: Problem, n: u32) -> Fault {
+        let most = self.checked(1).is_ok().then(|| self.most(1, n));
+        let ticks = |count| Ticks { count, hz: self.timer.hz, is_given: self.timer.is_given, unit: self.unit };
+        let [dark, lit] = [self.dark, self.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
+        let pair = |first, gap| Pair { first, gap: ticks(gap), least: dark };
+        let what = match (self.lamp, problem) {
+            (Lamp::Equal { ticks: length }, problem) => {
+                let pair = match problem {
+                    Problem::Close(i, gap) => Some(pair(i, gap)),
+                    _ => None,
+                };
+                let what = What::Pulses { length: ticks(length.into()), pair, longest: ticks(self.longest(n)), most };
+                return Fault::new("flashes.pulse", what);
+            }
+            (Lamp::Doses { .. }, Problem::Close(i, gap)) => What::DosesClose { pair: pair(i, gap), most },
+            (Lamp::Doses { .. }, Problem::Short(i, lasts)) => {
+                What::DoseShort { i, lasts: ticks(lasts), least: lit, most }
+            }
+            (_, Problem::Close(i, gap)) => What::Close { pair: pair(i, gap), most },
+            _ => What::Unfit { most },
+        };
+        Fault::new("flashes.triggers", what)
+    }
+}
+
+/// The fewest ticks that last as long as `gap`.
+pub(crate) fn whole_ticks(gap: f64, timer_hz: u32) -> u64 {
+    let hz = f64::from(timer_hz);
+    // Compared in seconds: gap and quotient are both the nearest to what is meant, so a gap written as
+    // a decimal fraction that is a whole number of ticks counts as one.
+    let nearest = (gap * hz).round();
+    let short = nearest / hz < gap;
+    (nearest as u64).saturating_add(short.into())
+}
