@@ -27,7 +27,7 @@ pub enum Form {
     C,
     /// A row for each trigger
     Csv,
-    /// The curve's facts, if there is a curve, and an object for each trigger
+    /// The plan's facts, and an object for each trigger
     Json,
 }
 
@@ -50,8 +50,8 @@ impl Form {
 pub fn emit(form: Form, name: &str, plan: &Plan, curve: bool) -> Result<String, String> {
     is_ready(form, plan, curve)?;
     Ok(match form {
-        Form::Rust => rust::module(name, plan, curve),
-        Form::C => c::header(name, plan),
+        Form::Rust => rust::module(&Module::new(name, plan), curve),
+        Form::C => c::header(&Module::new(name, plan)),
         Form::Csv => csv::rows([(name, plan)]),
         Form::Json => json::object(name, plan),
     })
@@ -70,9 +70,10 @@ pub fn several(form: Form, name: &str, plans: &[(String, Plan)], curve: bool) ->
     if form != Form::Json {
         alike(form, plans)?;
     }
+    let modules = || plans.iter().map(|(name, plan)| Module::new(name, plan)).collect::<Vec<_>>();
     Ok(match form {
-        Form::Rust => rust::modules(name, plans, curve),
-        Form::C => c::headers(name, plans),
+        Form::Rust => rust::modules(name, &modules(), curve),
+        Form::C => c::headers(name, &modules()),
         Form::Csv => csv::rows(plans.iter().map(|(name, plan)| (name.as_str(), plan))),
         Form::Json => json::array(plans),
     })
@@ -86,49 +87,46 @@ fn is_ready(form: Form, plan: &Plan, curve: bool) -> Result<(), String> {
     if curve && plan.curve.is_none() {
         return Err("--curve: the scene has trigger times and no curve".into());
     }
-    let mut lacks = Vec::new();
-    if plan.set_up.is_none() {
-        lacks.extend(set_ups(plan));
-    }
-    if !plan.timer.is_given {
-        lacks.push("timer_hz = ...       # your timer's rate, in Hz".into());
-    }
-    if plan.min_gap.is_none() {
-        lacks.push("min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing".into());
-    }
-    if plan.sync.delay.is_some() && falls(plan).is_none() {
-        lacks.push("sync_falls = ...     # true, or false if the delay counts from an edge that rises".into());
-    }
-    if lacks.is_empty() {
+    let asked = [
+        (plan.set_up.is_none(), set_ups(plan)),
+        (!plan.timer.is_given, "timer_hz = ...       # your timer's rate, in Hz".into()),
+        (
+            plan.min_gap.is_none(),
+            "min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing".into(),
+        ),
+        (
+            plan.sync.delay.is_some_and(|delay| delay.falls.is_none()),
+            "sync_falls = ...     # true, or false if the delay counts from an edge that rises".into(),
+        ),
+    ];
+    let lines: String = asked.iter().filter(|(lacks, _)| *lacks).map(|(_, line)| format!("\n  {line}")).collect();
+    if lines.is_empty() {
         return Ok(());
     }
-    let lines: String = lacks.iter().map(|line| format!("\n  {line}")).collect();
     Err(format!(
-        "hardware needs what only you know; write it below [flashes], or say --set-up, --timer-hz, --min-gap, --sync-falls:{lines}"
+        "hardware needs what only you know; write it below [flashes], or say --set-up, --timer-hz, --min-gap, \
+         --sync-falls:{lines}"
     ))
 }
 
 /// The lines by which a scene can tell its set-up, and what comes of each.
-fn set_ups(plan: &Plan) -> Vec<String> {
+fn set_ups(plan: &Plan) -> String {
     let emulated = "set_up = \"emulated\"  # the camera's own shutter stays open";
     let in_path = "set_up = \"in_path\"   # this shutter is in the light's path";
-    if plan.curve.is_none() {
-        return vec![
-            emulated.into(),
-            "                     # in the light's path it needs a curve: `shutter fit --model free`".into(),
-        ];
-    }
+    let nothing = "                     #";
     match plan.lamp {
-        Lamp::Doses { .. } => vec![format!("{in_path}; duty is for that alone")],
-        Lamp::FullyOpen => vec![format!("{in_path}; fully_open is for that alone")],
+        _ if plan.curve.is_none() => {
+            format!("{emulated}\n  {nothing} in the light's path it needs a curve: `shutter fit --model free`")
+        }
+        Lamp::Doses { .. } => format!("{in_path}; duty is for that alone"),
+        Lamp::FullyOpen => format!("{in_path}; fully_open is for that alone"),
         Lamp::Triggered | Lamp::Equal { .. } => {
             let [equal, dimmed] = [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&doses(it, plan)));
-            vec![
-                format!("{emulated}: the first, the middle and the last flash give {equal}"),
-                format!("{in_path}, and dims them to {dimmed}; all alike"),
-                "                     # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)"
-                    .into(),
-            ]
+            format!(
+                "{emulated}: the first, the middle and the last flash give {equal}\n  {in_path}, and dims them to \
+                 {dimmed}; all alike\n  {nothing} with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` \
+                 (xenon)"
+            )
         }
     }
 }
@@ -137,8 +135,8 @@ fn set_ups(plan: &Plan) -> Vec<String> {
 fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
-        let [a, b] = [one.timer, plan.timer];
-        for (key, a, b) in [("timer_hz", a.hz, b.hz), ("timer_bits", a.bits, b.bits)] {
+        let [a, b] = [one, plan];
+        for (key, a, b) in [("timer_hz", a.timer.hz, b.timer.hz), ("timer_bits", a.timer.bits, b.timer.bits)] {
             if a != b {
                 return Err(format!("{key}: {a} in {first}, {b} in {name}; one list is for one timer"));
             }
@@ -146,19 +144,19 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
         if form == Form::Csv {
             continue;
         }
-        let [a, b] = [one, plan];
-        if a.sync.delay.is_some() != b.sync.delay.is_some() {
-            let (has, lacks) = if a.sync.delay.is_some() { (first, name) } else { (name, first) };
+        let [of_a, of_b] = [a, b].map(|plan| plan.sync.delay);
+        if of_a.is_some() != of_b.is_some() {
+            let (has, lacks) = if of_a.is_some() { (first, name) } else { (name, first) };
             return Err(format!("delay: {has} has one and {lacks} has none; an array needs all or none"));
         }
         let differ = format!("{first} and {name} differ; an array is for one");
-        if falls(a) != falls(b) {
+        if of_a.map(|it| it.falls) != of_b.map(|it| it.falls) {
             return Err(format!("sync_falls: {differ} edge"));
         }
         if a.set_up != b.set_up {
             return Err(format!("set_up: {differ} set-up"));
         }
-        if has_pulses(a) != has_pulses(b) {
+        if a.lamp.has_pulses() != b.lamp.has_pulses() {
             return Err(format!("pulses: one of {first} and {name} has them; an array needs all or none"));
         }
         let called = identifier(name);
@@ -172,20 +170,70 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
 /// By what a text was made.
 const MADE_BY: &str = concat!("Made by `shutter plan` ", env!("CARGO_PKG_VERSION"));
 
-/// The facts, a line each, as a comment.
-fn comment(start: &str, name: &str, plan: &Plan) -> String {
-    let mut text = format!("{start}{MADE_BY}.\n{}\n", start.trim_end());
-    for (what, fact) in Facts::new(plan).lines(name) {
-        text += &format!("{start}{what:11}  {}\n", name::shown(&fact));
+/// What a module of Rust and a header of C say of a plan, each in its own words.
+struct Module<'a> {
+    scene: &'a str,
+    plan: &'a Plan,
+    /// The lines of its head.
+    head: Vec<String>,
+    /// From the edge, if there is a delay.
+    edge: Option<Edge>,
+    /// When to switch on and off, or when to trigger.
+    ticks: Ticks,
+    /// From where these count.
+    origin: &'static str,
+}
+
+struct Edge {
+    falls: bool,
+    /// What the delay is.
+    about: &'static str,
+    delay: u32,
+    hold_off: u32,
+}
+
+enum Ticks {
+    Triggers(Vec<u32>),
+    Pulses(Vec<(u32, u32)>),
+}
+
+/// What `HOLD_OFF_TICKS` is.
+const HOLD_OFF: &str =
+    "So long after an edge no other one counts: the frame is over then, and lamp and sync are ready.";
+
+impl<'a> Module<'a> {
+    fn new(scene: &'a str, plan: &'a Plan) -> Self {
+        let (rows, sync) = (plan.rows(), plan.sync);
+        let lines = Facts::new(plan).lines(scene).into_iter();
+        let line = |(what, fact): (_, String)| format!("{what:11}  {}", name::shown(&fact));
+        let head = [format!("{MADE_BY}."), String::new()].into_iter().chain(lines.map(line)).collect();
+        let about = match (sync.early, sync.lag) {
+            (1.., None) => "None: the shutter opens before the edge of the camera's sync, and ticks count from that.",
+            (1.., _) => "No delay is left: the lamp's lag is longer, and the rest is taken off the ticks.",
+            (0, Some(_)) => "From the edge of the camera's sync to the start of opening, less the lamp's lag.",
+            (0, None) => "From the edge of the camera's sync to the start of opening.",
+        };
+        let edge = sync.delay.map(|delay| Edge {
+            falls: delay.falls.unwrap_or_default(),
+            about,
+            delay: sync.ticks,
+            hold_off: plan.hold_off,
+        });
+        let ticks = match plan.lamp.has_pulses() {
+            true => Ticks::Pulses(rows.iter().filter_map(|row| row.on_ticks.zip(row.off_ticks)).collect()),
+            false => Ticks::Triggers(rows.iter().map(|row| row.ticks).collect()),
+        };
+        let is_moved = edge.is_some() && (sync.lag.is_some() || sync.early > 0);
+        let origin = if is_moved { "counted from the end of the delay" } else { "counted from the start of opening" };
+        Self { scene, plan, head, edge, ticks, origin }
     }
-    text
 }
 
 /// Items in rows that are easy to read.
-fn rows(items: impl Iterator<Item = String>) -> String {
+fn rows<T: ToString>(items: impl Iterator<Item = T>) -> String {
     const WIDTH: usize = 96;
     let (mut text, mut row) = (String::new(), String::new());
-    for item in items {
+    for item in items.map(|item| item.to_string()) {
         if row.len() + item.len() > WIDTH {
             text += &format!("   {row}\n");
             row.clear();
@@ -193,42 +241,6 @@ fn rows(items: impl Iterator<Item = String>) -> String {
         row += &format!(" {item},");
     }
     if row.is_empty() { text } else { text + &format!("   {row}\n") }
-}
-
-/// What the delay is, as a module or a header says it.
-fn delay(plan: &Plan) -> &'static str {
-    match (plan.sync.early, plan.sync.lag) {
-        (1.., None) => "None: the shutter opens before the edge of the camera's sync, and ticks count from that.",
-        (1.., _) => "No delay is left: the lamp's lag is longer, and the rest is taken off the ticks.",
-        (0, Some(_)) => "From the edge of the camera's sync to the start of opening, less the lamp's lag.",
-        (0, None) => "From the edge of the camera's sync to the start of opening.",
-    }
-}
-
-/// From where the ticks of all these count.
-fn origin<'a>(mut plans: impl Iterator<Item = &'a Plan>) -> &'static str {
-    let is_moved = |plan: &Plan| plan.sync.delay.is_some() && (plan.sync.lag.is_some() || plan.sync.early > 0);
-    match plans.any(is_moved) {
-        true => "counted from the end of the delay",
-        false => "counted from the start of opening",
-    }
-}
-
-/// Which edge of the sync counts, if the scene tells.
-fn falls(plan: &Plan) -> Option<bool> {
-    plan.sync.delay?.falls
-}
-
-fn has_pulses(plan: &Plan) -> bool {
-    plan.lamp.has_pulses()
-}
-
-fn ticks(plan: &Plan) -> impl ExactSizeIterator<Item = String> {
-    plan.rows().into_iter().map(|row| row.ticks.to_string())
-}
-
-fn pulses(plan: &Plan) -> impl Iterator<Item = (u32, u32)> {
-    plan.rows().into_iter().filter_map(|row| row.on_ticks.zip(row.off_ticks))
 }
 
 /// Fowler, Noll and Vo's hash (FNV-1a).

@@ -188,6 +188,8 @@ pub enum What {
     Spread,
     #[error("it goes with a delay")]
     Falls,
+    #[error("frame and gap, or a sync that bounces, last {ticks} ticks, and the timer's count has {most}")]
+    HoldOff { ticks: u64, most: u64 },
     #[error("the frame ends more than 2^31 ticks after the edge; with up to {most} ticks of delay it does not")]
     DelayTooLong { most: f64 },
     /// So many triggers come before the edge, or before where ticks count; what keeps all behind it.

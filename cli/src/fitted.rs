@@ -1,7 +1,7 @@
 //! A fit as the shutter of a scene.
 
 use shutter_fit::report::{because, efficiency};
-use shutter_fit::trace::Refusal;
+use shutter_fit::trace::{Refusal, Warning};
 use shutter_fit::unit::{Unit, count, decimals, rounded};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
@@ -132,11 +132,20 @@ impl Numbers {
             delay: delay.map(|delay| self.time(delay.mean())),
             delay_spread: delay.and_then(|it| it.spread()).map(|spread| rounded(self.unit.of(spread), 2)),
             sync_falls: delay.and_then(|delay| delay.switch).map(|switch| switch.falls()),
+            sync_settles: settles(fit).map(|seconds| rounded(self.unit.of(seconds), 2)),
             nominal: fit.nominal.map(|it| rounded(self.unit.of(it), 7)),
             measured: Some(measured(fit, name)),
             ..Shutter::default()
         }
     }
+}
+
+/// For so long after its first edge a contact bounces.
+fn settles(fit: &Fit) -> Option<f64> {
+    fit.warnings.iter().find_map(|warning| match warning {
+        Warning::SyncBounced { by, .. } => Some(1.1 * by),
+        _ => None,
+    })
 }
 
 /// What was read, and what came of it.

@@ -57,6 +57,9 @@ pub struct Plan {
     pub timer: Timer,
     /// From where they count.
     pub sync: Sync,
+    /// After an edge, or the start of opening where there is no delay: the frame is over, and lamp and sync are ready
+    /// for another one.
+    pub hold_off: u32,
     /// How the flashes meet the shutter, if the scene tells.
     pub set_up: Option<SetUp>,
     /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds.
@@ -142,7 +145,7 @@ impl Plan {
         let triggers = (0..).zip(&frame).map(trigger).collect();
         let (lamp, most) = (frames.lamp, frames.most(n, MOST_TRIGGERS + 1));
         let moved = shape.rounding(shutter) * f64::from(timer.hz);
-        Ok(Self { curve: Some(Curve { shape, shutter: curve, most, moved }), lamp, triggers, ..plan })
+        Self { curve: Some(Curve { shape, shutter: curve, most, moved }), lamp, triggers, ..plan }.held_off(scene)
     }
 
     fn by_times(scene: &Scene, times: &[f64]) -> Result<Self, Fault> {
@@ -179,7 +182,7 @@ impl Plan {
         let end = triggers.last().map_or(0.0, |last| last.ticks.into());
         let plan = Self::common(scene, timer, delay, [start, last.max(timer.seconds(1))], end)?;
         plan.starts(scene, &triggers.iter().map(|it| it.ticks.into()).collect::<Vec<_>>(), None)?;
-        Ok(Self { triggers, ..plan })
+        Self { triggers, ..plan }.held_off(scene)
     }
 
     /// What a plan by a curve and one by trigger times both have; its frame ends so many ticks after the opening.
@@ -202,6 +205,7 @@ impl Plan {
             lamp: Lamp::Triggered,
             timer,
             sync,
+            hold_off: 0,
             set_up: flashes.set_up,
             min_gap: not_negative("flashes.min_gap", unit, flashes.min_gap)?,
             nominal: positive("shutter.nominal", shutter.unit(), shutter.nominal)?,
@@ -243,6 +247,21 @@ impl Plan {
         let (by_edge, unit) = (delay.is_some(), scene.unit());
         let is_emulated = by_edge && scene.flashes.set_up == Some(SetUp::Emulated);
         Err(Fault::new(key, What::BeforeEdge { few, by, by_edge, most, fully_open, lag, is_emulated, unit }))
+    }
+
+    /// With its hold-off.
+    fn held_off(mut self, scene: &Scene) -> Result<Self, Fault> {
+        let settles = not_negative("shutter.sync_settles", scene.shutter.unit(), scene.shutter.sync_settles)?;
+        let last = self.triggers.last().map_or(0, |last| last.pulse.map_or(last.ticks, |(_, off)| off));
+        let last = u64::from(self.sync.ticks) + u64::from(last.saturating_sub(self.sync.early));
+        let ready = last.saturating_add(whole_ticks(self.min_gap.unwrap_or_default(), self.timer.hz).max(1));
+        let all = ready.max(whole_ticks(settles.unwrap_or_default(), self.timer.hz));
+        let most = (1u64 << self.timer.bits) - 1;
+        if all > most && self.timer.is_given {
+            return Err(Fault::new("flashes.min_gap", What::HoldOff { ticks: all, most }));
+        }
+        self.hold_off = all.min(most) as u32;
+        Ok(self)
     }
 
     /// How long so many ticks last.

@@ -39,6 +39,7 @@ pub struct Shutter {
     pub delay: Option<f64>,
     pub delay_spread: Option<f64>,
     pub sync_falls: Option<bool>,
+    pub sync_settles: Option<f64>,
     pub nominal: Option<f64>,
     pub measured: Option<Measured>,
 }

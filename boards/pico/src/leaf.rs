@@ -1,4 +1,4 @@
-// Checksum 6492fc9e of the lines below: `shutter` replaces them while it holds
+// Checksum 664db8ac of the lines below: `shutter` replaces them while it holds
 // Made by `shutter plan` 0.2.0.
 //
 // scene        measured
@@ -34,6 +34,10 @@ pub const COUNT: usize = 16;
 #[allow(dead_code)]
 pub const DELAY_TICKS: u32 = 530_877;
 
+/// So long after an edge no other one counts: the frame is over then, and lamp and sync are ready.
+#[allow(dead_code)]
+pub const HOLD_OFF_TICKS: u32 = 1_496_632;
+
 /// When to trigger, counted from the start of opening.
 #[allow(dead_code, clippy::unreadable_literal)]
 #[rustfmt::skip]
@@ -50,7 +54,8 @@ pub const fn on_off(i: usize, width: u32) -> (u32, u32) {
     (on, on + width)
 }
 
-/// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync; they wrap.
+/// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync; they wrap. Take no
+/// other edge for `HOLD_OFF_TICKS` after this one.
 #[allow(dead_code)]
 #[must_use]
 pub fn due(edge: u32) -> impl ExactSizeIterator<Item = u32> {

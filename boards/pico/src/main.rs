@@ -26,10 +26,10 @@ const LATE: u32 = 5;
 const N: usize = leaf::COUNT;
 
 /// A frame as `pulses.pio` reads it. Differences are counted from the edge on, so nothing wraps.
-const FRAME: [u32; 1 + 2 * N] = {
+const FRAME: [u32; 2 + 2 * N] = {
     assert!(leaf::TIMER_HZ == TICK_HZ, "leaf.rs is of another timer: plan it with timer_hz = 125_000_000");
     assert!(0 < N && N <= 8_192, "the memory has room for 1 to 8192 flashes");
-    let mut frame = [N as u32 - 1; 1 + 2 * N];
+    let mut frame = [N as u32 - 1; 2 + 2 * N];
     let (mut ready, mut i) = (LATE, 0);
     while i < N {
         let (on, off) = leaf::on_off(i, PULSE);
@@ -41,6 +41,7 @@ const FRAME: [u32; 1 + 2 * N] = {
         ready = off + MIN_LOW;
         i += 1;
     }
+    frame[1 + 2 * N] = leaf::HOLD_OFF_TICKS.saturating_sub(ready);
     frame
 };
 

@@ -66,7 +66,8 @@ fn main() -> ! {
         if EDGES[0].wrapping_sub(timer.cnt().read().bits()).wrapping_sub(ARMING / 2) as i32 > 0 {
             fire(&timer, &dma, EDGES);
         }
-        // Edges that came meanwhile start nothing.
+        // The lamp is ready again then, and the sync; edges that came meanwhile start nothing.
+        while timer.cnt().read().bits().wrapping_sub(edge) < leaf::HOLD_OFF_TICKS {}
         timer.sr().write(|w| w.cc1if().clear().cc1of().clear());
     }
 }

@@ -1,117 +1,121 @@
 //! A plan as a header of C99 and C++11.
 
-use std::iter::once;
-
-use super::{MADE_BY, comment, falls, fnv, has_pulses, name, origin, pulses, rows, ticks};
-use crate::plan::Plan;
+use super::{HOLD_OFF, MADE_BY, Module, Ticks, fnv, name, rows};
 
 /// The header of a plan, its names those of the scene.
-pub fn header(scene: &str, plan: &Plan) -> String {
-    let (lower, upper) = names(scene);
-    let (ticks, bits) = (ticks(plan), plan.timer.bits);
-    let n = ticks.len();
-    let mut body = format!(
-        "#include <stdint.h>
-
-/* The timer's rate. */
-#define {upper}_TIMER_HZ UINT32_C({})
-#define {upper}_COUNT {n}
-",
-        plan.timer.hz
-    );
-    if plan.sync.delay.is_some() {
-        body += &edge(&upper, plan);
-        body +=
-            &format!("/* {} */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n", super::delay(plan), plan.sync.ticks);
-    }
-    let array = |about: &str, what: &str, ticks: String| {
-        format!("\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_COUNT] = {{\n{ticks}}};\n")
+pub fn header(module: &Module) -> String {
+    let Module { plan, head, edge, ticks, origin, .. } = module;
+    let ((lower, upper), int, bits) = (names(module.scene), int(module), plan.timer.bits);
+    let (n, common) = (plan.triggers.len(), common(&upper, module));
+    let head: String = head.iter().map(|line| format!(" * {line}").trim_end().to_string() + "\n").collect();
+    let delay = edge.as_ref().map_or(String::new(), |edge| {
+        let (about, delay, hold_off) = (edge.about, edge.delay, edge.hold_off);
+        format!(
+            "/* {about} */
+#define {upper}_DELAY_TICKS UINT{bits}_C({delay})
+/* {HOLD_OFF} */
+#define {upper}_HOLD_OFF_TICKS UINT{bits}_C({hold_off})
+"
+        )
+    });
+    let array = |what: &str, name: &str, ticks: &mut dyn Iterator<Item = u32>| {
+        let rows = rows(ticks);
+        format!("\n/* {what}, {origin}. */\nstatic const {int} {lower}_{name}[{upper}_COUNT] = {{\n{rows}}};\n")
     };
-    let origin = origin(once(plan));
-    if has_pulses(plan) {
-        for (edge, which) in ["on", "off"].into_iter().zip(0..) {
-            let ticks = rows(pulses(plan).map(|(on, off)| [on, off][which].to_string()));
-            let about = format!("When to switch the lamp {edge}, {origin}.");
-            body += &array(&about, edge, ticks);
-        }
-    } else {
-        body += &array(&format!("When to trigger, {origin}."), "ticks", rows(ticks));
-    }
-    if plan.sync.delay.is_some() {
-        let int = format!("uint{bits}_t");
-        let (doc, on, off) = match has_pulses(plan) {
-            true => (
-                "its pulse is its own, whatever `width`",
-                format!("{lower}_on[i]"),
-                format!("({int})({upper}_DELAY_TICKS + {lower}_off[i]);\n    (void)width;"),
-            ),
-            false => ("it is `width` ticks long", format!("{lower}_ticks[i]"), format!("({int})(*on + width);")),
-        };
-        body += &format!(
+    let (arrays, doc, on, off) = match ticks {
+        Ticks::Pulses(pulses) => (
+            array("When to switch the lamp on", "on", &mut pulses.iter().map(|pulse| pulse.0))
+                + &array("When to switch the lamp off", "off", &mut pulses.iter().map(|pulse| pulse.1)),
+            "its pulse is its own, whatever `width`",
+            "on",
+            format!("({int})({upper}_DELAY_TICKS + {lower}_off[i]);\n    (void)width;"),
+        ),
+        Ticks::Triggers(ticks) => (
+            array("When to trigger", "ticks", &mut ticks.iter().copied()),
+            "it is `width` ticks long",
+            "ticks",
+            format!("({int})(*on + width);"),
+        ),
+    };
+    let from_edge = edge.as_ref().map_or(String::new(), |_| {
+        format!(
             "
 /* When to switch flash `i` on, and when off, in ticks after the edge: {doc}. */
 static inline void {lower}_on_off(uint32_t i, {int} width, {int} *on, {int} *off)
 {{
-    *on = ({int})({upper}_DELAY_TICKS + {on});
+    *on = ({int})({upper}_DELAY_TICKS + {lower}_{on}[i]);
     *off = {off}
 }}
 
-/* The timer's count at such ticks, where it counted `edge` at the edge of the camera's sync. */
-static inline uint{bits}_t {lower}_due(uint{bits}_t edge, uint{bits}_t ticks)
+/* The timer's count at such ticks, where it counted `edge` at the edge of the camera's sync. Take no other edge for
+ * {upper}_HOLD_OFF_TICKS after this one. */
+static inline {int} {lower}_due({int} edge, {int} ticks)
 {{
-    return (uint{bits}_t)(edge + {upper}_DELAY_TICKS + ticks); /* wrapping */
+    return ({int})(edge + {upper}_DELAY_TICKS + ticks); /* wrapping */
 }}
 "
-        );
-    }
-    format!("/*\n{} */\n{}", comment(" * ", scene, plan), guarded(&upper, &lower, &body))
+        )
+    });
+    let body = format!("{common}#define {upper}_COUNT {n}\n{delay}{arrays}{from_edge}");
+    format!("/*\n{head} */\n{}", guarded(&upper, &lower, &body))
 }
 
 /// The headers of several plans as one, and an array of them.
-pub fn headers(called: &str, plans: &[(String, Plan)]) -> String {
-    let Some((_, one)) = plans.first() else { return String::new() };
-    let (lower, upper) = names(called);
-    let bits = one.timer.bits;
-    let mut body = format!(
-        "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n\
-         #define {upper}_SPEEDS {}\n{}\n",
-        one.timer.hz,
-        plans.len(),
-        edge(&upper, one)
+pub fn headers(called: &str, modules: &[Module]) -> String {
+    let Some(one) = modules.first() else { return String::new() };
+    let ((lower, upper), int, n) = (names(called), int(one), modules.len());
+    let moved = modules.iter().find(|it| it.origin.ends_with("delay"));
+    let origin = moved.unwrap_or(one).origin;
+    let arrays: &[_] = if matches!(one.ticks, Ticks::Pulses(_)) { &["on", "off"] } else { &["ticks"] };
+    let delay = format!(
+        "    /* See its _DELAY_TICKS. */\n    {int} delay_ticks;\n    /* See its _HOLD_OFF_TICKS. */\n    {int} \
+         hold_off_ticks;\n"
     );
-    body += "typedef struct {\n    const char *name;\n    uint32_t count;\n";
-    if one.sync.delay.is_some() {
-        body += &format!("    /* See its _DELAY_TICKS. */\n    uint{bits}_t delay_ticks;\n");
-    }
-    let origin = origin(plans.iter().map(|(_, plan)| plan));
-    body += &format!("    /* So many as `count`, {origin}. */\n");
-    let arrays: &[_] = if has_pulses(one) { &["on", "off"] } else { &["ticks"] };
-    for array in arrays {
-        body += &format!("    const uint{bits}_t *{array};\n");
-    }
-    body += &format!("}} {lower}_speed;\n\nstatic const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{\n");
-    for (scene, plan) in plans {
-        let (lower, upper) = names(scene);
-        let delay = plan.sync.delay.map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
-        let arrays = arrays.iter().map(|array| format!("{lower}_{array}")).collect::<Vec<_>>();
-        body += &format!("    {{\"{lower}\", {upper}_COUNT, {delay}{}}},\n", arrays.join(", "));
-    }
-    body += "};\n";
-    let made = format!("/*\n * {MADE_BY}: {}, a shutter of {} speeds.\n */\n", name::shown(called), plans.len());
-    let speeds: String = plans.iter().map(|(scene, plan)| header(scene, plan) + "\n").collect();
+    let delay = if one.edge.is_some() { delay } else { String::new() };
+    let fields: String = arrays.iter().map(|array| format!("    const {int} *{array};\n")).collect();
+    let speed = |module: &Module| {
+        let (lower, upper) = names(module.scene);
+        let ticks = format!("{upper}_DELAY_TICKS, {upper}_HOLD_OFF_TICKS, ");
+        let delay = if one.edge.is_some() { ticks } else { String::new() };
+        let arrays = arrays.iter().map(|array| format!("{lower}_{array}")).collect::<Vec<_>>().join(", ");
+        format!("    {{\"{lower}\", {upper}_COUNT, {delay}{arrays}}},\n")
+    };
+    let (speeds, common) = (modules.iter().map(speed).collect::<String>(), common(&upper, one));
+    let body = format!(
+        "{common}#define {upper}_SPEEDS {n}
+
+typedef struct {{
+    const char *name;
+    uint32_t count;
+{delay}    /* So many as `count`, {origin}. */
+{fields}}} {lower}_speed;
+
+static const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{
+{speeds}}};
+"
+    );
+    let headers: String = modules.iter().map(|module| header(module) + "\n").collect();
     // A name of its own, so that a scene may be called as the whole is.
-    made + "\n" + &speeds + &guarded(&format!("{upper}_SPEEDS"), &lower, &body)
+    let whole = guarded(&format!("{upper}_SPEEDS"), &lower, &body);
+    format!("/*\n * {MADE_BY}: {}, a shutter of {n} speeds.\n */\n\n{headers}{whole}", name::shown(called))
 }
 
-/// Which edge of the sync counts, if there is a delay from it.
-fn edge(upper: &str, plan: &Plan) -> String {
-    falls(plan).map_or(String::new(), |falls| {
-        let falls = u8::from(falls);
+/// The timer, and the edge.
+fn common(upper: &str, module: &Module) -> String {
+    let hz = module.plan.timer.hz;
+    let rate = format!("#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({hz})\n");
+    module.edge.as_ref().map_or(rate.clone(), |edge| {
         format!(
-            "/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n\
-             #define {upper}_SYNC_FALLS {falls}\n"
+            "{rate}/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n\
+             #define {upper}_SYNC_FALLS {}\n",
+            u8::from(edge.falls)
         )
     })
+}
+
+/// The type of the timer's count.
+fn int(module: &Module) -> &'static str {
+    if module.plan.timer.bits == 16 { "uint16_t" } else { "uint32_t" }
 }
 
 fn names(scene: &str) -> (String, String) {

@@ -17,7 +17,8 @@ pub const TIMES: &str = "unit = 'ms'\nopen_start = 4.1\ntimer_hz = 1_000_000\nmi
                          trigger_times = [\n  5.0, 5.5,\n  6.1004,\n]\n";
 
 /// The keys of a shutter; all others are of the flashes.
-const SHUTTER: [&str; 10] = [
+const SHUTTER: [&str; 11] = [
+    "sync_settles",
     "unit",
     "open_",
     "close_",
