@@ -1,4 +1,4 @@
-// Checksum 664db8ac of the lines below: `shutter` replaces them while it holds
+// Checksum 41ecf296 of the lines below: `shutter` replaces them while it holds
 // Made by `shutter plan` 0.2.0.
 //
 // scene        measured
@@ -14,8 +14,8 @@
 // known to     ± 0.15 ms to the opening, ± 0.0024 ms to any trigger
 // gap          at least 0.1 ms; the closest two come 0.39088 ms apart
 // set-up       emulated: equal flashes while the camera's own shutter stays open
-// triggers     16; up to 62 keep the gap
-// direct       frames of up to 630 triggers never need a search
+// triggers     16; 62 keep the gap, 63 do not
+// direct       no frame of up to 630 triggers needs a search
 // drift        a tick a second moves the delay by 1 % of a share in 37708 frames
 
 /// The timer's rate.
