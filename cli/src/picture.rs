@@ -12,10 +12,10 @@ use chart::plotters::style::text_anchor::{HPos, VPos};
 use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, VERMILION, pen, picture};
 use shutter_fit::unit::{count, short};
 
-use crate::lamp::{FullyOpen, Lamp};
-use crate::plan::{Curve, Plan};
 use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, graph, is_near, knob, lit, time_range};
 pub use set_ups::set_ups;
+use shutter_plan::lamp::{FullyOpen, Lamp};
+use shutter_plan::plan::{Curve, Plan};
 pub use trace::trace;
 
 const SIZE: (i32, i32) = (900, 704);

@@ -10,9 +10,9 @@ use shutter_fit::unit::{decimals, short};
 use terminal_size::terminal_size_of;
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
-use crate::facts::Facts;
-use crate::lamp::{Lamp, SetUp};
-use crate::plan::{Curve, Plan, Row, Trigger};
+use shutter_plan::facts::Facts;
+use shutter_plan::lamp::{Lamp, SetUp};
+use shutter_plan::plan::{Curve, Plan, Row, Trigger};
 
 /// With more triggers than this, a full line at each would hide the curve.
 const MOST_LINES: usize = 36;

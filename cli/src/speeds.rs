@@ -2,8 +2,8 @@
 
 use shutter_fit::unit::{short, stops};
 
-use crate::facts::Facts;
-use crate::plan::Plan;
+use shutter_plan::facts::Facts;
+use shutter_plan::plan::Plan;
 
 /// A row for each plan, under the names of what stands in it.
 pub fn text(plans: &[(String, Plan)]) -> String {

@@ -1,8 +1,8 @@
 //! A scene as the page has it: all keys of both tables side by side, as numbers in this order.
 
-use shutter::lamp::SetUp;
-use shutter::scene::{Flashes, Scene, Shutter};
 use shutter_fit::unit::Unit;
+use shutter_plan::lamp::SetUp;
+use shutter_plan::scene::{Flashes, Scene, Shutter};
 
 /// The keys, as the page numbers them and as a fault's place does.
 pub const KEYS: [&str; 19] = [

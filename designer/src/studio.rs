@@ -2,15 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use shutter::emit::{self, Form};
-use shutter::fault::Fault;
-use shutter::fitted::{self, Zero, no_scene};
-use shutter::plan::Plan;
-use shutter::scene::{Flashes, Scene};
 use shutter_fit::delay::{self, Sync};
 use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Trace};
 use shutter_fit::unit::Unit;
 use shutter_fit::{From, Options, report, speed};
+use shutter_plan::emit::{self, Form};
+use shutter_plan::fault::Fault;
+use shutter_plan::fitted::{self, Zero, no_scene};
+use shutter_plan::plan::Plan;
+use shutter_plan::scene::{Flashes, Scene};
 
 use crate::flat;
 use crate::words::{self, Told};

@@ -3,15 +3,15 @@
 //! The answer is numbers, in parts that each begin with their length: the page reads them as they are in memory, which
 //! is faster than any text, and its first load has nothing that writes one. Times are in seconds; NaN is none.
 
-use shutter::facts::{Facts, closest, coarse, drift, ends};
-use shutter::fault::{Code, Fault, Pair, What};
-use shutter::lamp::Lamp;
-use shutter::plan::{Curve, MOST_TRIGGERS, Plan};
-use shutter::scene::Scene;
-use shutter::set_up::doses;
-use shutter::shape::{self, Shape};
 use shutter_curve::{CubicBezier, CurveError};
 use shutter_fit::unit::Unit;
+use shutter_plan::facts::{Facts, closest, coarse, drift, ends};
+use shutter_plan::fault::{Code, Fault, Pair, What};
+use shutter_plan::lamp::Lamp;
+use shutter_plan::plan::{Curve, MOST_TRIGGERS, Plan};
+use shutter_plan::scene::Scene;
+use shutter_plan::set_up::doses;
+use shutter_plan::shape::{self, Shape};
 
 use crate::flat::{KEYS, NUMBERS, of_numbers, place};
 

@@ -19,12 +19,12 @@ use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path}
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
 use super::sensors;
-use crate::emit::Form;
-use crate::facts::Facts;
-use crate::fitted::{self, Zero};
 use crate::picture;
-use crate::plan::{MOST_TRIGGERS, Plan};
-use crate::scene::{Scene, Written};
+use shutter_plan::emit::Form;
+use shutter_plan::facts::Facts;
+use shutter_plan::fitted::{self, Zero};
+use shutter_plan::plan::{MOST_TRIGGERS, Plan};
+use shutter_plan::scene::{Scene, Written};
 
 /// Without progress for so long, nobody waits for any.
 const PATIENCE: Duration = Duration::from_secs(1);

@@ -8,11 +8,12 @@ use super::input::{self, shown, stem};
 use super::mark::{self, Comment};
 use super::output::{Outputs, svg_path};
 use super::settings::Settings;
-use crate::emit::Form;
-use crate::facts::Facts;
-use crate::plan::Plan;
-use crate::scene::Scene;
-use crate::{emit, picture, report, speeds};
+use crate::{picture, report, speeds};
+use shutter_plan::emit;
+use shutter_plan::emit::Form;
+use shutter_plan::facts::Facts;
+use shutter_plan::plan::Plan;
+use shutter_plan::scene::Scene;
 
 /// The scene without a file, and the name it goes by.
 const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));

@@ -8,7 +8,7 @@ use shutter_fit::{Options, Sync};
 
 use super::input::{self, file_name, shown};
 use super::quantity::time;
-use crate::scene::Scene;
+use shutter_plan::scene::Scene;
 
 /// Samples of one record are at the same time, to so much of the time between two.
 const SAME: f64 = 0.01;

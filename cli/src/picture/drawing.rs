@@ -10,7 +10,7 @@ use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, INK, LIGHT, SCALE, VERMILION, 
 use shutter_curve::ShutterCurve;
 use shutter_fit::unit::{decimals, trimmed};
 
-use crate::plan::Plan;
+use shutter_plan::plan::Plan;
 
 /// The points along a curve, or along all shares of it.
 pub const POINTS: usize = 800;

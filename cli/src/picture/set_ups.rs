@@ -10,8 +10,8 @@ use shutter_curve::ShutterCurve;
 use shutter_fit::unit::short;
 
 use super::drawing::{below, draw_curve, graph, lit, steps, time_axis, write_heading};
-use crate::plan::Plan;
-use crate::set_up::{Row, SetUps};
+use shutter_plan::plan::Plan;
+use shutter_plan::set_up::{Row, SetUps};
 
 const SIZE: (i32, i32) = (1000, 760);
 const HEADING: i32 = 70;

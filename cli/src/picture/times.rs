@@ -8,7 +8,7 @@ use chart::{Axis, INK, SCALE, axes, pen, picture};
 use shutter_fit::unit::{count, decimals, trimmed};
 
 use super::drawing::{draw_marks, is_near, time_axis, time_range, write_heading};
-use crate::plan::Plan;
+use shutter_plan::plan::Plan;
 
 const SIZE: (i32, i32) = (900, 240);
 const HEADING: i32 = 70;

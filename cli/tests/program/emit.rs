@@ -9,9 +9,9 @@ use std::sync::OnceLock;
 
 use serde::Deserialize;
 use serde_json::Value;
-use shutter::emit::{Form, emit, identifier, module, several};
-use shutter::lamp::Lamp;
-use shutter::plan::{Plan, Trigger};
+use shutter_plan::emit::{Form, emit, identifier, module, several};
+use shutter_plan::lamp::Lamp;
+use shutter_plan::plan::{Plan, Trigger};
 
 use shutter_curve::ShutterCurve;
 

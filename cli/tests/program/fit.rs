@@ -5,11 +5,11 @@ use std::fmt::Write;
 use std::fs;
 
 use serde_json::Value;
-use shutter::fitted::{self, Zero};
-use shutter::plan::Plan;
-use shutter::scene;
 use shutter_fit::trace::{self, Light, Recording, Refusal, Tell, Trace, Warning};
 use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit};
+use shutter_plan::fitted::{self, Zero};
+use shutter_plan::plan::Plan;
+use shutter_plan::scene;
 use strum::IntoEnumIterator;
 
 use crate::generator::{Disturbance, Random, SHUTTERS, Shutter, Truth, bezier, each, traced, truth};
@@ -573,8 +573,8 @@ fn from_a_trace_to_the_firmwares_module() {
     let seconds = |plan: &Plan| plan.sync.delay.unwrap().seconds;
     let delay = seconds(&planned(&synced, Zero::Trace));
     assert!((delay - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
-    let form = shutter::emit::Form::Rust;
-    let module = shutter::emit::emit(form, "measured", &kept, true).unwrap();
+    let form = shutter_plan::emit::Form::Rust;
+    let module = shutter_plan::emit::emit(form, "measured", &kept, true).unwrap();
     assert_eq!(module, read("../examples/trigger/measured.rs"));
 }
 

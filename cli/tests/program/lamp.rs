@@ -2,9 +2,9 @@
 //! refused.
 
 use serde_json::{Value, json};
-use shutter::emit::{Form, emit};
-use shutter::lamp::SetUp;
-use shutter::plan::Plan;
+use shutter_plan::emit::{Form, emit};
+use shutter_plan::lamp::SetUp;
+use shutter_plan::plan::Plan;
 
 use crate::refusals::{LEAF, with};
 use crate::support::{Folder, has, planned, report, table};

@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};
 
 use serde_json::Value;
-use shutter::scene::Written;
+use shutter_plan::scene::Written;
 
 use crate::refusals::{MEASURED, TRAPEZOID, with};
 use crate::support::{Folder, Run, has, leaf, number};

@@ -4,11 +4,11 @@ use std::fs;
 use std::io::{self, ErrorKind, Write};
 
 use serde_json::Value;
-use shutter::emit::{Form, emit};
-use shutter::facts::Facts;
-use shutter::plan::Plan;
-use shutter::scene::Scene;
 use shutter_curve::ShutterCurve;
+use shutter_plan::emit::{Form, emit};
+use shutter_plan::facts::Facts;
+use shutter_plan::plan::Plan;
+use shutter_plan::scene::Scene;
 
 use crate::refusals::{BOX, MEASURED, TRAPEZOID, tables, with};
 use crate::support::{Folder, SCENES, has, planned, report, run, scene, scenes, table};
@@ -278,7 +278,7 @@ fn what_lies_in_the_box_lies_in_it_in_every_unit() {
                 "unit = \"{unit}\"\n{times}shutteropening = [{}]\ntriggers = 1\ntimer_hz = 1\nmin_gap = 0\n",
                 inner.as_flattened().join(", ")
             );
-            let curve = Scene::parse(&tables(&text)).and_then(|scene| shutter::shape::curve(&scene.shutter));
+            let curve = Scene::parse(&tables(&text)).and_then(|scene| shutter_plan::shape::curve(&scene.shutter));
             assert!(curve.is_ok(), "{}", curve.unwrap_err().locate("scene", &text));
         }
     }

@@ -1,7 +1,7 @@
 //! What is wrong with a scene is refused at its line, in words that say what would be right; and what is just right is
 //! not.
 
-use shutter::plan::Plan;
+use shutter_plan::plan::Plan;
 
 /// At 3/4 s of exposure and a gap of 1/10 s, 7 triggers are sure.
 pub const TRAPEZOID: &str = "open_start = 0.0\nopen_end = 0.25\nclose_start = 0.75\nclose_end = 1.0\ntriggers = 7\n\

@@ -1,6 +1,6 @@
 //! docs/scene.md has each key that the program knows, and no other, and says which are required.
 
-use shutter::scene::{Flashes, Scene, Shutter};
+use shutter_plan::scene::{Flashes, Scene, Shutter};
 
 /// The keys of a table of the page, and what holds without each.
 fn rows(table: &str) -> Vec<(&'static str, &'static str)> {
@@ -39,7 +39,7 @@ fn the_page_says_what_is_required() {
         let [shutter, flashes] = ["shutter", "flashes"].map(|table| lines(required(table).collect()));
         format!("[shutter]\n{shutter}[flashes]\n{flashes}")
     };
-    let reason = |without: &str| shutter::plan::Plan::parse(&scene(without)).err().map(|fault| fault.reason());
+    let reason = |without: &str| shutter_plan::plan::Plan::parse(&scene(without)).err().map(|fault| fault.reason());
     assert_eq!(reason(""), None);
     for key in required("shutter").chain(required("flashes")) {
         assert_eq!(reason(key), Some(format!("{key}: it is required")));

@@ -5,8 +5,8 @@ use std::process::Command;
 use std::{env, fs, path::Path};
 
 use serde_json::Value;
-use shutter::plan::Plan;
 use shutter_fit::trace::Trace;
+use shutter_plan::plan::Plan;
 
 use crate::generator::Random;
 use crate::refusals::with;

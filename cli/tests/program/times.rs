@@ -2,7 +2,7 @@
 //! plan` turns into ticks.
 
 use serde_json::Value;
-use shutter::plan::Plan;
+use shutter_plan::plan::Plan;
 
 use crate::refusals::{TIMES, TRAPEZOID, tables, with};
 use crate::support::{Folder, number, rows, sampled};

@@ -7,10 +7,10 @@ use std::fs;
 use designer::flat::{self, KEYS};
 use serde::Serialize;
 use serde_json::{Value, json};
-use shutter::fault::{Code, Fault};
-use shutter::plan::Plan;
-use shutter::scene::Scene;
 use shutter_fit::unit::Unit;
+use shutter_plan::fault::{Code, Fault};
+use shutter_plan::plan::Plan;
+use shutter_plan::scene::Scene;
 use strum::VariantNames;
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../cli/scenes");

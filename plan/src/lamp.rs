@@ -6,8 +6,8 @@ use shutter_curve::{Hz, ScheduleError, ShutterCurve};
 
 /// How the flashes meet the shutter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
-#[cfg_attr(feature = "terminal", value(rename_all = "snake_case"))]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[cfg_attr(feature = "clap", value(rename_all = "snake_case"))]
 #[serde(rename_all = "snake_case")]
 pub enum SetUp {
     /// The camera's own shutter stays open, and the flashes make the exposure of the scene's curve
@@ -49,14 +49,15 @@ pub enum Lamp {
 }
 
 /// The plateau of a curve, in seconds from the start of opening.
-pub(crate) struct FullyOpen {
+pub struct FullyOpen {
     start: f64,
     from: f64,
     to: f64,
 }
 
 impl FullyOpen {
-    pub(crate) fn new(curve: &ShutterCurve) -> Self {
+    /// Of a curve.
+    pub fn new(curve: &ShutterCurve) -> Self {
         let start = f64::from(curve.open_start());
         let from_start = |t: f32| f64::from(t) - start;
         Self { start, from: from_start(curve.open_end()), to: from_start(curve.close_start()) }
@@ -67,7 +68,7 @@ impl FullyOpen {
     }
 
     /// When such a part of it is over.
-    pub(crate) fn time(&self, part: f64) -> f64 {
+    pub fn time(&self, part: f64) -> f64 {
         self.start + self.after_start(part)
     }
 

@@ -18,7 +18,7 @@ use crate::set_up::doses;
 
 /// A form that a plan can be emitted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Form {
     /// A module with the ticks, which needs no crate
@@ -244,6 +244,6 @@ fn rows<T: ToString>(items: impl Iterator<Item = T>) -> String {
 }
 
 /// Fowler, Noll and Vo's hash (FNV-1a).
-pub(crate) fn fnv(bytes: impl Iterator<Item = u8>) -> u32 {
+pub fn fnv(bytes: impl Iterator<Item = u8>) -> u32 {
     bytes.fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }

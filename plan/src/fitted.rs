@@ -11,7 +11,7 @@ use crate::scene::{Flashes, Measured, Scene, Shutter};
 
 /// Where a scene's time 0 is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Zero {
     /// As in the trace.
     #[default]

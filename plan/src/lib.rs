@@ -1,0 +1,19 @@
+//! From a camera's shutter to the ticks at which a firmware triggers.
+//!
+//! A [`scene::Scene`] becomes a [`plan::Plan`], and that [`facts::Facts`], which all forms render. A measured trace
+//! becomes a [`shutter_fit::Fit`], and that a scene's shutter.
+//!
+//! All are plain functions without input, output or a terminal, and build for `wasm32-unknown-unknown`.
+
+pub mod emit;
+pub mod facts;
+pub mod fault;
+pub mod fitted;
+mod frames;
+pub mod lamp;
+pub mod plan;
+pub mod scene;
+pub mod set_up;
+pub mod shape;
+pub mod sync;
+pub mod timer;
