@@ -53,12 +53,17 @@ class Extreme:
         self.f = plus(*(by(w, c * ONE) for w, c in zip(WEIGHTS, f)))
         self.m = integral(times(self.f, slope(self.t)))
 
+    def from_end(self):
+        """The coefficients of the mass since the other end."""
+        of = lambda k: [0, *(ONE * comb(k, j) * (-1) ** (j + 1) for j in range(1, k + 1))]
+        return plus(*(by(of(k), c) for k, c in enumerate(self.m)))
+
 
 def extremes(of_f=SINGLE, crossed=CROSSED):
     return [Extreme(corner, f) for corner in corners(crossed) for f in of_f]
 
 
-def least(p, start, end):
+def least(p, start=Fraction(0), end=ONE):
     """A lower bound of a polynomial between two places: its least Bernstein coefficient there."""
     moved, n = list(p), len(p) - 1
     for k in range(n):
@@ -68,48 +73,22 @@ def least(p, start, end):
     return min(sum(Fraction(comb(i, k), comb(n, k)) * moved[k] for k in range(i + 1)) for i in range(n + 1))
 
 
-def holds(factor, left, right, ramps, until=None, parts=128):
-    """Is left(ramp) <= factor * right(ramp) at all places? `left` has no negative coefficient.
+greatest = lambda p, start=Fraction(0), end=ONE: -least(by(p, -1), start, end)
 
-    If `until` is given, only where until(ramp) <= 0, which rises: some multiple of it, one for all ramps, may be added
-    on the right.
-    """
-    sides = []
+
+def holds(factor, left, right, ramps, parts=128):
+    """Is left(ramp) <= factor * right(ramp) at all places?"""
     for ramp in ramps:
         l, r = left(ramp), right(ramp)
-        low = order(l) if any(l) else 0
-        require(order(r) <= low, "a right side that vanishes faster")
-        sides.append((l, r, order(r), until(ramp) if until else None))
-    for part in range(parts):
-        x, y = Fraction(part, parts), Fraction(part + 1, parts)
-        lower, upper = Fraction(0), None
-        for l, r, low, u in sides:
-            lacks = at(l[low:], y) - factor * least(r[low:], x, y)
-            if u is None:
-                if lacks > 0:
-                    return False
-                continue
-            lacks *= y**low if lacks > 0 else x**low
-            value = at(u, x)
-            if value > 0:
-                lower = max(lower, lacks / value)
-            elif lacks > 0:
+        low = order(r)
+        require(low <= (order(l) if any(l) else low), "a right side that vanishes faster")
+        for part in range(parts):
+            x, y = Fraction(part, parts), Fraction(part + 1, parts)
+            if greatest(l[low:], x, y) > factor * least(r[low:], x, y):
                 return False
-            elif value < 0:
-                upper = lacks / value if upper is None else min(upper, lacks / value)
-        if upper is not None and lower > upper:
-            return False
     return True
 
 
-def tight(factor, left, right, ramps, until=None, less=Fraction(1, 2)):
+def tight(factor, left, right, ramps, less=Fraction(9, 10)):
     """Does it hold, and not for so much less of the factor?"""
-    return holds(factor, left, right, ramps, until) and not holds(factor * less, left, right, ramps, until)
-
-
-# Of a ramp counted from its start: not more than 51 of 100 parts of the mass are before the place.
-SHARE = Fraction(51, 100)
-before_half = lambda r: plus(r.m, [-SHARE * sum(r.m)])
-# The same of its time; and the ramps that differ in that alone.
-half_time = lambda r: plus(r.t, [-SHARE])
-times_only = lambda: [Extreme(corner, (0, 0, 0, 1)) for corner in corners()]
+    return holds(factor, left, right, ramps) and not holds(factor * less, left, right, ramps)

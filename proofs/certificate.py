@@ -2,32 +2,21 @@
 
 Taken as known: on [-1, 1] a polynomial of degree n < N is at most 1 / cos(n pi / 2N) times its greatest value at the
 points cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
+
+Of all of octave/bound.rs and certificate.rs, `Path::stretch`, `Span::new` and `Exposure::join_fractions`.
 """
 
 import math
+import struct
 
-import numpy as np
 from z3 import *
 
 from common import *
 
-pinned("""
-octave/mod.rs offset f842a0c4 polynomial dd3fe418
-octave/bound.rs COSINES b2eeaf01 FACTOR 057c7966 count 36d8dce6 ::at 17b1ec79 errors c8eb60a0 single 84fae9ed
-octave/certificate.rs certificate 76a0ae5c PerStep::new 560c35b4 bounds 999987ea are_certain 1d3ddbaa
-octave/candidate.rs candidate d3eb3555
-octave/path.rs absolute 0189ce1f parameter ab66e34c stretch 601c8212 size_of_time 8fec6805
-octave/span.rs Span::new f245b7f1 offsets 5456fc37
-exposure.rs join_fractions bec42778
-""")
-
 DEGREE, POINTS, FIRST_STRIDE = constant("DEGREE"), constant("POINTS"), constant("FIRST_STRIDE")
-ONE, COSINE = int(constant("ONE")), constant("COSINE")
-single = lambda text: Fraction(float(np.float32(text.replace("_", ""))))
-FACTOR = [single(text) for text in re.findall(r"\d+\.[\d_]+", item("octave/bound.rs", "FACTOR"))]
-STRIDES = (1, 2)
-
-
+ONE, COSINE = int(constant("bound::ONE")), constant("COSINE")
+single = lambda text: Fraction(struct.unpack("f", struct.pack("f", float(text)))[0])
+FACTOR = [single(text) for text in re.findall(r"\d+\.[\d_]+", text_of("FACTOR"))]
 # --- Cosines, by `libm` to 2^-50, where 2^-40 would do.
 cosine = lambda half_turns: Fraction(math.cos(math.pi * half_turns))
 
@@ -45,14 +34,13 @@ off = off_table(float(COSINE))
 proven(f"the table's {POINTS // 2 + 1} cosines are within 2^{log2(off):.2f}",
        off <= Fraction(1, 2 * ONE) * (1 + Fraction(1, 2**10)) and off_table(float(COSINE) * (1 - 2.0**-40)) > off * 2)
 
-# --- The degree of R: an offset's, which is a fraction's, times the octave's; and of R times the openness. So the
-# factors.
+# --- The degree of R, an offset's times the octave's, and of R times the openness. So the factors.
 n = 6 * DEGREE + 3
-exact = {stride: 1 / cosine(n * stride / (2 * POINTS)) for stride in STRIDES}
-factor_off = max(abs(FACTOR[stride & 3] / exact[stride] - 1) for stride in STRIDES) / U
+exact = {stride: 1 / cosine(n * stride / (2 * POINTS)) for stride in (1, 2)}
+factor_off = max(abs(FACTOR[stride & 3] / exact[stride] - 1) for stride in exact) / U
 proven(f"R times the openness has degree {n}, and FACTOR is 1 / cos({n} pi / 2N) for N = {POINTS // 2} and {POINTS}, "
        f"to {float(factor_off):.2f} roundings",
-       n == 51 and n < POINTS // FIRST_STRIDE and factor_off <= 1 and FIRST_STRIDE == max(STRIDES),
+       n == 51 and n < POINTS // FIRST_STRIDE and factor_off <= 1 and FIRST_STRIDE == 2,
        # A degree of 50 would not do.
        abs(FACTOR[2] * cosine((n - 1) / POINTS) - 1) > 2**16 * U)
 # Samples are off their points, and so is a sample by Markov: max |p| <= F (seen + off n^2 max |p|). Roundings of 2^-24:
@@ -93,23 +81,13 @@ least, ulp_error = constant("LEAST_TOP") / 2, constant("ULP_ERROR")
 is_less = lambda begin: ulp_error * begin / 2**23 > Fraction(3, 2) * (join_off + fraction_off * 2 * begin)
 proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a fraction may be off by, for each octave",
        all(is_less(least * 2**i) for i in range(30)))
-# Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of
-# themselves (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53.
-PAIR = Fraction(1, 2**49)
-
-
-def joins_hold(join_off, fraction_off, least_part=True):
-    """Is a join within both? A part has its pair's rounding, and three of a double; so has the sum."""
-    part, half = PAIR + 6 * U64, Fraction(1, 2)
-    if not least_part:
-        return part <= join_off
-    return part <= fraction_off and part * half + U64 / 2 <= join_off + fraction_off * half
-
-
-proven("what rounds joins, given the ramps' masses, is within JOIN_OFF and FRACTION_OFF of itself, as each is told by "
-       "the lesser part; by 1 less a share of nearly all it would not be",
-       joins_hold(join_off, fraction_off) and not joins_hold(join_off, PAIR),
-       not joins_hold(join_off, fraction_off, False) and join_off == U64 / 2)
+# Joins, given the ramps' masses. A near share is a quotient, cut to 2^-62, and a double again; the far ramp begins
+# where its share is missing: the area has two roundings, and the quotient one of half of 2^-53.
+near, cut = 2 * U64, Fraction(1, 2**62)
+far = Fraction(5, 2) * U64 + cut
+proven("what rounds joins is within JOIN_OFF and FRACTION_OFF of itself; half of JOIN_OFF would not do next to a ramp "
+       "with nearly all",
+       near + cut / least < fraction_off and U64 < fraction_off and join_off / 2 < far < join_off)
 
 # --- How far a stretch goes in which so much time passes.
 t1, t2, t3, s, start, d = Reals("t1 t2 t3 s start d")
@@ -118,8 +96,8 @@ size, inside = If(t2 < 0, -t2, t2), And(s >= -1, s <= 1)
 vertex, at_end = And(inside, 3 * t3 > size), t1 + 3 * t3 - 2 * size
 # Written without a quotient: thrice (t1 - t2^2 / thrice) = thrice t1 - t2^2.
 vertex_bound = lambda part: Implies(vertex, 3 * t3 * parabola(s) >= 3 * t3 * t1 - t2 * t2 * part)
-claim = "slowest is at most the least t' on [-1, 1], where the vertex may be inside"
-valid(claim, vertex_bound(1), vertex_bound(Q(99, 100)))
+valid("slowest is at most the least t' on [-1, 1], where the vertex may be inside",
+      vertex_bound(1), vertex_bound(Q(99, 100)))
 end_bound = lambda most, more: Implies(And(inside, most * t3 <= size), parabola(s) >= at_end + more)
 valid("and where it is not", end_bound(3, 0), end_bound(3, size / 100), end_bound(2, 0))
 # From `start` to start + d the time is d t'(m) + t3 d^3 / 4 about the middle m, and t'(m) is not negative.
@@ -128,8 +106,8 @@ passed = t1 * d + t2 * (end * end - start * start) + t3 * (end * end * end - sta
 about = d * parabola(m) + t3 * d * d * d / 4
 require(simplify(passed - about, som=True).eq(RealVal(0)), "the time about the middle")
 takes = lambda q: Implies(And(d > 0, d <= 2, parabola(m) >= 0), q * about >= t3 * d * d * d)
-claim = "a stretch of length d takes at least t3 d^3 / 4, as t' is not negative in its middle"
-valid(claim, takes(4), takes(Q(399, 100)))
+valid("a stretch of length d takes at least t3 d^3 / 4, as t' is not negative in its middle",
+      takes(4), takes(Q(399, 100)))
 proven("slowest: its 8 roundings of 2^-24, each of at most all terms, are below the 2^-20 that are taken from it",
        8 * U * Fraction(1001, 1000) < Fraction(1, 2**20) < 32 * U)
 

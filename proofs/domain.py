@@ -1,16 +1,9 @@
-"""What the rules of src/domain.rs leave: how fast time passes on a ramp, its least area, and how great numbers are."""
+"""What the rules of src/domain.rs leave: how fast time passes on a ramp, its least area, and how great numbers are.
+
+Of `domain::check`, `Exposure::new`, `Ramp::new` and `Shape::exposure_powers`.
+"""
 
 from box import *
-
-pinned("""
-domain.rs check f6cb7d9f check_section b2af6dd3 check_points 843de3a2
-exposure.rs Exposure::new 3f1397a4
-inverse.rs Inverse::new 182aa4cc last_before_line e915c97a
-number/units.rs mass_exponent 8d1444af time_exponent 96eb982d ramp_exponent bb4367a6 fixed_down 12e34aed
-    fixed_towards_0 c6a6eaa3
-ramp/mod.rs openness cf44a862
-ramp/shape.rs powers 91a002ae exposure_powers 6be3a531 area 6e0daa9d
-""")
 
 # Rule 2. `t'` is at least 3 p^2 next to the start, as much next to the end, and SLOWEST between.
 SLOWEST, NEXT_TO_END = Fraction(45, 976), Fraction(1, 8)
@@ -33,14 +26,14 @@ proven("t' is at least 3 p^2 and 3 (1 - p)^2 within 1/8 of an end, and between t
        at(vertex, -vertex[1] / (2 * vertex[2])) == SLOWEST > Fraction(1, 22),
        passes(SLOWEST * Fraction(99, 100)) and not passes(SLOWEST * Fraction(101, 100)),
        not passes(Fraction(1, 22), CROSSED + Fraction(1, 200)))
-proven("openness is a mean of its control values, so from 0 to 1",
+proven("openness is a mean of its control values, so at most the greatest of them",
        all(at(w, Fraction(1, 2)) > 0 for w in WEIGHTS) and plus(*WEIGHTS) == [1, 0, 0, 0])
 
-# Rules 2 and 3. The area is least where all but the last control value are 0.
-LEAST_AREA = min(sum(ramp.m) for ramp in times_only())
-proven("a ramp whose greatest control value is 1 has at least 1/20 of the exposure that its length would have fully "
-       "open: one of f = p^3 with both inner times at its end has so much",
-       LEAST_AREA == Fraction(1, 20) and all(sum(ramp.m) >= LEAST_AREA for ramp in extremes()))
+# Rules 2 and 3. The area is a sum, over the control values, of at least this of each.
+ramps, times_only = extremes(), [Extreme(corner, (0, 0, 0, 1)) for corner in corners()]
+proven("a ramp has at least 1/20 of the exposure that its length would have at its greatest control value: one of f = "
+       "p^3 with both inner times at its end has so much",
+       min(sum(ramp.m) for ramp in times_only) == LEAST_AREA and all(sum(ramp.m) >= LEAST_AREA for ramp in ramps))
 
 # Rules 4 to 6, for a greatest |time| of 1. A time counts at most 2^62 units and a greatest one at least 2^61.
 interval, section, density = constant("LEAST_INTERVAL"), constant("LEAST_SECTION"), constant("LEAST_EXPOSURE")
@@ -59,21 +52,25 @@ proven(f"the plateau's line has at least 2^{log2(units):.2f} units of area, and 
        2**40 < units < 2**41 and ulp * units / 2**8 < line < ulp * units / 2**6)
 longest = constant("DOUBLE_WORD")
 # The greatest |time|, or the interval if that is more, has 2^61 to 2^62 units.
-way, units = log2(section / longest / 2) - 64, [log2(1 / longest) - 61, log2(longest / interval) - 61]
-proven(f"an area is from 2^{log2(density / longest):g} to 2^64, so it and its reciprocal are normal f32; a way on a "
-       f"ramp counts in 2^{way:g} or more, a time in 2^{units[0]:g} to 2^{units[1]:g}",
+units = [log2(1 / longest) - 61, log2(longest / interval) - 61]
+proven(f"an area is from 2^{log2(density / longest):g} to 2^64, so it and its reciprocal are normal f32; a time counts "
+       f"in 2^{units[0]:g} to 2^{units[1]:g}",
        density / longest > Fraction(1, 2**126) and min(density, LEAST_AREA) == density,
-       way >= -252 and units[0] >= -125 and units[1] + 32 < 127)
+       units[0] >= -125 and units[1] + 32 < 127)
 
-# Terms without their signs, at each place of any ramp.
-ramps = extremes()
+# Terms without their signs, at each place of any ramp; and of a mass from both ends, at the other end.
 for what, number, left, right, on in (
     ("mass", MASS_TERMS, lambda r: sizes(r.m), lambda r: r.m, ramps),
-    ("time", TIME_TERMS, lambda r: sizes(r.t), lambda r: r.t, times_only()),
+    ("time", TIME_TERMS, lambda r: sizes(r.t), lambda r: r.t, times_only),
 ):
     claim = f"the terms of a {what} since an end, without their signs, are at most {number} times the {what}"
-    proven(claim, tight(number, left, right, on, less=Fraction(9, 10)))
-# The openness counts from the end that is nearer in time. Pairs round it by far less than 2^-10 of its terms.
-proven("the terms of an openness up to half of a ramp's time, without their signs, are at most 1024 times the "
-       "openness: so none is measured below 0",
-       tight(1024, lambda r: sizes(r.f), lambda r: r.f, ramps, half_time))
+    proven(claim, tight(number, left, right, on))
+most = max((sum(sizes(r.m)) + sum(sizes(r.from_end()))) / sum(r.m) for r in ramps)
+proven(f"those of both ends at the other end are at most {float(most)} times the ramp's share: so `mass_shift` is at "
+       f"most {MASS_SHIFT}",
+       2**MASS_SHIFT <= most < (1 - 2 * U) * 2 ** (MASS_SHIFT + 1))
+proven(f"a mass grows at most {STEEPEST} times as fast, along the place, as on average",
+       tight(STEEPEST, lambda r: slope(r.m), lambda r: [sum(r.m)], ramps))
+# So where a mass of 2^-20 is sought, the place is below 1/4 or the shift is 0.
+quarter = max((sum(sizes(r.m)) + sum(sizes(r.from_end()))) / at(r.m, Fraction(1, 4)) for r in ramps)
+proven(f"and at most 2^{log2(quarter):g} times the mass up to 1/4", quarter == QUARTER)

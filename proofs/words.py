@@ -1,39 +1,28 @@
-"""The plateau's line, the rounding of a time, and bits of numbers: for all values of the words, by z3."""
+"""The plateau's line, the rounding of a time, and conversions: for all values of the words.
+
+Of `on_line`, `in_line_units`, `upper_word` and `rounded_near_0`; `fixed_down`, `fixed_towards_0` and `floor_bits`.
+"""
 
 from z3 import *
 
 from common import *
 
-pinned("""
-inverse.rs on_line 11ca6ef0 in_line_units 6fe0fed4 last_before_line e915c97a upper_word a882ad8d rounded_near_0 979ba1b4
-number/pair.rs upper 5180492f significand a3252cda
-number/units.rs exponent eb440cf3 fixed_down 12e34aed fixed_towards_0 c6a6eaa3 floor_bits 60a73088
-""")
-
-# The plateau's line.
-# The two products, of 32 bits by 32, are exact in 64; here they are any numbers that such products may be.
+# The plateau's line. The two products, of 32 bits by 32, are any numbers that such products may be.
 p, q = Ints("p q")
-greatest = (2**32 - 1) ** 2
-products = And(p >= 0, p <= greatest, q >= 0, q <= (2**31 - 1) * (2**32 - 1))
+products = And(p >= 0, p <= (2**32 - 1) ** 2, q >= 0, q <= (2**31 - 1) * (2**32 - 1))
 way = lambda bits: Implies(products, And(q + p / 2**32 == (q * 2**32 + p) / 2**32, q + p / 2**32 < 2**bits))
 valid("on_line: the way is floor(slope u / 2^32), and stays within 63 bits", way(63), way(62))
 FINE = 127 + int(log2(constant("FINE")))
 bits = BitVec("bits", 32)
 shift = 126 - LShR(bits, 23)
 whole = (bits << 8) | (1 << 31)
-
-
-def line(first):
-    back = LShR(whole, shift) << shift
-    return Implies(And(UGE(bits, first << 23), ULT(bits, 127 << 23)), And(ULE(shift, 31), back == whole))
-
-
+line = lambda first: Implies(And(UGE(bits, first << 23), ULT(bits, 127 << 23)),
+                             And(ULE(shift, 31), LShR(whole, shift) << shift == whole))
 valid("in_line_units: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even
 # numbers. So an odd number may stand for all that lies between its even neighbours.
 LEAST_BITS = 25
-
 time, even = BitVec("time", 64), BitVec("even", 72)
 
 
@@ -49,13 +38,13 @@ def one_word(bits):
     word = high | If(low != 0, BitVecVal(1, 32), BitVecVal(0, 32))
     near_0 = LShR(high + (1 << LEAST_BITS), LEAST_BITS + 1) == 0
     # The steps between f32 are at least 2^(bits - 23), and middles multiples of half of that.
-    size = And(Or(word >= 1 << bits, word < -(1 << bits)))
+    size = Or(word >= 1 << bits, word < -(1 << bits))
     return Implies(Not(near_0), And(stands_for(word, time, 32), size))
 
 
 require(LEAST_BITS - 23 - 1 >= 1, "middles between f32 are even numbers")
-claim = "inverse_cdf: one conversion of 32 bits rounds a time of 64 as the exact time rounds"
-valid(claim, one_word(LEAST_BITS), one_word(LEAST_BITS + 1))
+valid("upper_word: one conversion of 32 bits rounds a time of 64 as the exact time rounds",
+      one_word(LEAST_BITS), one_word(LEAST_BITS + 1))
 
 
 def carefully(is_word, up, least=1 << 30):
@@ -66,9 +55,7 @@ def carefully(is_word, up, least=1 << 30):
     high, low = Extract(63, 32, moved), Extract(31, 0, moved)
     first = high ^ sign
     # What leading_zeros() - 1 is; 32 zeros give 31, too.
-    leads = first == 0 if up == 31 else LShR(first, 30 - up) == 1
-    if up == 31:
-        leads = Or(leads, LShR(first, 31) == 1)
+    leads = Or(first == 0, LShR(first, 31) == 1) if up == 31 else LShR(first, 30 - up) == 1
     filled = (high << up) | LShR(LShR(low, 1), 31 - up) | If(low << up != 0, BitVecVal(1, 32), BitVecVal(0, 32))
     size = Or(filled >= least, filled <= -least)
     return Implies(And(here, leads, time != 0), And(stands_for(filled, moved, 32 - up), size))
@@ -80,61 +67,29 @@ for is_word in (True, False):
 valid("rounded_near_0: the word is full, and rounds as the exact time rounds; for every time but 0",
       carefully(True, 3), carefully(True, 3, (1 << 30) + 1))
 
-# Bits of f32.
-x = BitVec("x", 32)
-significand = (x & 0x7FFFFF) | (1 << 23)
-high = significand & 0xFFFFF000
-is_normal = And(LShR(x << 1, 24) != 0, LShR(x << 1, 24) != 255)
-is_upper = And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULT(LShR(high, 12), 1 << 12))
-halves = lambda most: Implies(is_normal, And(is_upper, ULE(significand - high, most)))
-claim = "upper: both halves of a normal number have at most 12 bits, so products of halves are exact"
-valid(claim, halves(4095), halves(4094))
-
-# `exponent`, `fixed_down` and `floor_bits` by exact rationals, for every exponent and the significands at the edges.
-# What they do with the bits of a significand is the same for all: a shift.
-up, sig = BitVec("up", 64), BitVec("sig", 64)
-# A number below 2^63 units: |sig| 2^up < 2^63, so up is at most 62 where sig is not 0.
-size = If(sig < 0, -sig, sig)
-is_below = Implies(up >= 0, LShR(BitVecVal(2**63 - 1, 64), up) >= size)
-fits = And(up <= 62, up >= -400, sig > -(1 << 24), sig < 1 << 24, is_below)
-
-
-def whole(most_down):
-    units = If(up >= 0, sig << (up & 63), sig >> If(up > -most_down, -up & 63, BitVecVal(most_down, 64)))
-    down = If(-up > 60, BitVecVal(60, 64), -up)
-    floor = And(units << down <= sig, sig - (units << down) < BitVecVal(1, 64) << down)
-    return Implies(fits, If(up >= 0, units >> up == sig, floor))
-
-
-valid("fixed_down: the whole units of a number below 2^63 of them, rounded down", whole(63), whole(23))
-# A subnormal number, whose exponent counts as 0, has no unit: up is at most -64 where e is at least -1011.
+# Conversions, for every significand `sig` and exponent: what they do with the bits is a shift. An f32's is moved up to
+# 62 bits, and down by 62 at most, or more where it is less than a unit.
+sig, down = BitVecs("sig down", 128)
+fits = And(sig > -(1 << 24), sig < 1 << 24, down >= 0, down <= 400)
+units = (sig << 39) >> If(down < 63, down, BitVecVal(63, 128))
+floor = lambda units: Implies(And(fits, down < 100), And(units << down <= sig << 39, (units + 1) << down > sig << 39))
+valid("fixed_down: the whole units of a number below 2^63 of them, rounded down", floor(units), floor(units + 1))
+# A subnormal double, whose exponent counts as 0, has no unit: up is at most -64 where e is at least -1011.
+up, sig = BitVecs("up sig", 64)
 fits = And(up <= 10, up >= -4000, ULT(sig, 1 << 53), UGE(sig, 1 << 52))
 units = If(up >= 0, sig << (up & 63), If(up > -64, sig >> (-up & 63), BitVecVal(0, 64)))
 down = If(-up > 63, BitVecVal(63, 64), -up)
 floor = And(units << down <= sig, ULT(sig - (units << down), BitVecVal(1, 64) << down))
 towards_0 = lambda floor: Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor))
-claim = "fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0"
-valid(claim, towards_0(floor), towards_0(units << down == sig))
-# `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one
-# below has one less, also across a power of two.
+valid("fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0",
+      towards_0(floor), towards_0(units << down == sig))
+# The nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one below has one
+# less, also across a power of two.
 y = FP("y", Float64())
 rounded = fpFPToFP(RNE(), y, Float32())
 double = lambda single: fpFPToFP(RNE(), single, Float64())
-below = fpBVToFP(fpToIEEEBV(rounded) - 1, Float32())
 inside = And(fpIsPositive(y), fpLEQ(y, FPVal(2, Float64())))
-is_above = fpGT(double(rounded), y)
-answer = If(is_above, below, rounded)
+answer = If(fpGT(double(rounded), y), fpBVToFP(fpToIEEEBV(rounded) - 1, Float32()), rounded)
 next_one = fpBVToFP(fpToIEEEBV(answer) + 1, Float32())
 is_last = lambda order: Implies(inside, And(order(double(answer), y), fpGT(double(next_one), y)))
 valid("floor_bits: the greatest f32 at or below, for every double from 0 (not -0) to 2", is_last(fpLEQ), is_last(fpEQ))
-
-# `significand` cuts a double's 53 bits: 24 and 24 more.
-double = BitVec("double", 64)
-exact = (double & (2**52 - 1)) | 2**52
-hi = (LShR(double, 29) & 0x7FFFFF) | (1 << 23)
-lo = LShR(double, 5) & 0xFFFFFF
-lost = exact - ((hi << 29) + (lo << 5))
-cut = lambda most: And(lost >= 0, lost <= most, ULT(lo, 1 << 24))
-valid("significand: 48 bits of the double, cut, so that less than 2^-47 is lost; the second number is below an ulp of "
-      "the first",
-      cut(31), cut(30))

@@ -163,7 +163,7 @@ const fn rough_log(x: f32) -> i32 {
 
 /// `x / k` within 4/3 of its last place, for `k` from 1 to 6 and the difference `x` of two logarithms. (The compiler
 /// would check the divisor of a division.)
-// proofs/guess.py: divided
+// proofs/search.py: divided
 const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }

@@ -54,7 +54,7 @@ impl Ramp {
 
     /// The mass since the end that faces a side.
     #[inline(always)]
-    const fn mass_since(&self, side: Side) -> Series<'_, 6> {
+    pub(crate) const fn mass_since(&self, side: Side) -> Series<'_, 6> {
         Series { c: &self.mass[side as usize], shift: self.mass_shift }
     }
 

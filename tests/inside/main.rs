@@ -34,10 +34,8 @@ mod trigger;
 #[path = "../support/mod.rs"]
 mod support;
 
-mod bound;
 mod certificate;
-mod product;
-mod units;
+mod exact;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;

@@ -1,0 +1,302 @@
+//! The integers of the answers, held to 128 bits or to `f64`: each function that a script of `proofs` names.
+
+use crate::exposure::Exposure;
+use crate::fixed::{
+    ONE, WORD, fixed_down, fixed_towards_0, floor_bits, power_of_two, power_of_two_f64, single, times, times_up,
+};
+use crate::fraction::{Fraction, Side};
+use crate::inverse::Inverse;
+use crate::octave::build::{build, range};
+use crate::octave::{Octave, below, bound, times_high_by_halves};
+use crate::ramp::bezier::CubicBezier;
+use crate::search::{MAX_EVALUATIONS, Series};
+use crate::support::curves::{Rng, named, random_hard, random_typical};
+use crate::support::oracle::Curve;
+use crate::trigger::ticks::{Hz, TickScale};
+
+/// Numbers of all lengths, and those next to powers of two.
+fn numbers(rng: &mut Rng, n: usize) -> Vec<i64> {
+    let near = |word: i64| (-2..=2).map(move |more| word.wrapping_add(more));
+    let mut numbers: Vec<i64> = (0..64).map(|k| 1i64 << k).flat_map(near).collect();
+    numbers.extend((0..n).map(|_| rng.bits() as i64 >> rng.below(64)));
+    numbers
+}
+
+/// All named curves, random ones, steps and slow ends, and curves across time 0 or far from it.
+fn curves() -> Vec<Curve> {
+    let mut curves: Vec<Curve> = named().into_iter().map(|named| named.curve).collect();
+    curves.extend((0..40).flat_map(|i| [random_typical(41, i), random_hard(41, i)]));
+    let straight = |[a, b]: [f32; 2], [f0, f3]: [f32; 2]| {
+        std::array::from_fn(|k| (a + (b - a) * k as f32 / 3.0, f0 + (f3 - f0) * k as f32 / 3.0))
+    };
+    for [a, b, c, d] in
+        [[0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 2.0], [-1.0, -1e-6, 1e-5, 3.0], [4e3, 4e3, 4001.0, 4001.0]]
+    {
+        curves.push(Curve::shutter(straight([a, b], [0.0, 1.0]), straight([c, d], [1.0, 0.0])));
+    }
+    // The most that the coefficients of a mass cancel: `most` of proofs/domain.py.
+    curves.push(Curve::shutter([(0.0, 0.0), (0.9375, 1.0), (0.0, 0.0), (1.0, 0.0)], [(1.0, 0.0); 4]));
+    curves
+}
+
+fn ramps() -> impl Iterator<Item = [CubicBezier; 2]> {
+    curves().into_iter().map(|curve| [curve.opening, curve.closing].map(CubicBezier::new))
+}
+
+fn inverses() -> impl Iterator<Item = Inverse<8>> {
+    ramps().filter_map(|[opening, closing]| Inverse::new(&opening, &closing).ok())
+}
+
+/// Fractions of all sizes up to 1/2.
+fn fraction(rng: &mut Rng) -> f32 {
+    (0.25 + 0.25 * rng.unit()) as f32 * power_of_two(-(rng.below(24) as i32))
+}
+
+#[test]
+fn products_of_two_words() {
+    let mut rng = Rng::new(90, 0);
+    let numbers = numbers(&mut rng, 1000);
+    for &a in &numbers {
+        for &x in &numbers {
+            let x = x as u64;
+            let exact = a as i128 * x as i128;
+            let low = exact - ((times(a, x) as i128) << 64);
+            assert!((0..3 << 64).contains(&low), "{a} * {x}");
+            for shift in [0, 3, 9, 31] {
+                let exact = exact >> (64 - shift);
+                if let Ok(exact) = i64::try_from(exact) {
+                    assert_eq!(times_up(a, x, shift), exact, "{a} * {x}, up by {shift}");
+                }
+            }
+        }
+    }
+    for &x in numbers.iter().filter(|x| **x >= 0) {
+        let error = (f64::from(single(x)) - x as f64).abs();
+        assert!(error <= 1.5 * x as f64 / f64::from(1 << 23), "{x}");
+    }
+}
+
+#[test]
+fn the_upper_word_of_a_product_by_halves() {
+    let mut rng = Rng::new(91, 0);
+    let words: Vec<i32> = numbers(&mut rng, 1500).into_iter().map(|word| word as i32).collect();
+    for &a in &words {
+        for &x in &words {
+            let exact = ((a as i64 * x as i64) >> 32) as i32;
+            assert_eq!(times_high_by_halves(a, x), exact, "{a} * {x}");
+        }
+    }
+}
+
+/// As in 128 bits, for coefficients of up to 60 bits and places up to either end.
+#[test]
+fn a_sample_is_by_words_what_it_is_by_more_bits() {
+    let mut rng = Rng::new(92, 0);
+    for i in 0..100_000 {
+        let c: [i64; 7] = core::array::from_fn(|_| rng.bits() as i64 >> (4 + rng.below(60)));
+        let place = match i % 4 {
+            0 => 1 << 30,
+            1 => -(1 << 30),
+            _ => rng.bits() as i32 >> 1,
+        };
+        let wide = c.iter().rev().fold(0, |value: i128, c| ((value * place as i128) >> 30) + *c as i128);
+        assert_eq!(i128::from(bound::at(&c, place)), wide, "{c:?} at {place}");
+    }
+}
+
+/// Rounded down on either side of time 0, so that times keep their order across it; a double towards 0.
+#[test]
+fn conversions_to_whole_units() {
+    let mut rng = Rng::new(93, 0);
+    for _ in 0..100_000 {
+        let e = rng.below(140) as i32 - 70;
+        let up = rng.below(150) as i32 - 90;
+        let x = (rng.unit() - 0.5) * power_of_two_f64(e + up);
+        let units = |x: f64| x / power_of_two_f64(e);
+        assert_eq!(fixed_down(x as f32, e) as f64, units(f64::from(x as f32)).floor(), "{x:e} in 2^{e}");
+        assert_eq!(fixed_towards_0(x, e) as i128, units(x).trunc() as i128, "{x:e} in 2^{e}");
+        let a = rng.unit() * power_of_two_f64(-(rng.below(40) as i32));
+        let [at, next] = [0, 1].map(|more| f64::from(f32::from_bits(floor_bits(a) + more)));
+        assert!(at <= a && a < next, "{a:e}");
+    }
+    for x in [0.0, -0.0, f32::from_bits(1), -f32::from_bits(1)] {
+        assert_eq!(fixed_down(x, -125), if x < 0.0 { -1 } else { 0 });
+    }
+    assert_eq!([f64::NAN, 1e30, -1e30].map(|x| fixed_towards_0(x, -20)), [i64::MAX, i64::MAX, -i64::MAX]);
+}
+
+/// The series of masses: the exact value in 128 bits, what a value is low by, and where a search ends: within its error,
+/// or, if that is too small for it, at one of two neighbouring places.
+#[test]
+fn series_of_masses_and_their_search() {
+    let (mut rng, mut most, mut bisected, mut shifts) = (Rng::new(94, 0), 0, 0, [0; 10]);
+    for inverse in inverses() {
+        for ramp in Side::BOTH.map(|side| inverse.exposure.ramp(side)).into_iter().filter(|ramp| ramp.share > 0) {
+            let series = Side::BOTH.map(|side| ramp.mass_since(side));
+            let size: u128 = series.iter().flat_map(|series| series.c).map(|c| c.unsigned_abs() as u128).sum();
+            assert!(size < 1 << 63 && (size >= 1 << 61 || series[0].shift == 0), "{ramp:?}");
+            shifts[series[0].shift as usize] += 1;
+            for series in &series {
+                for k in 0..60 {
+                    let p = if k == 0 { u64::MAX } else { rng.bits() >> (k % 16) };
+                    judge_value(series, p);
+                    let target = (rng.unit() * 0.5 * ramp.share as f64) as i64;
+                    let (place, evaluations) = series.solve(target, (target >> 27) + (1 << 12));
+                    assert!((target - series.at(place)).abs() <= (target >> 27) + (1 << 12), "{target} {ramp:?}");
+                    most = most.max(evaluations);
+                    let (place, evaluations) = series.solve(target, 0);
+                    let missing = target - series.at(place);
+                    assert!(missing.abs() <= 7683, "{missing} of {target}: {ramp:?}");
+                    bisected += u32::from(evaluations == MAX_EVALUATIONS);
+                }
+            }
+        }
+    }
+    std::println!("evaluations: {most}; bisected to the end: {bisected}; ramps by shift: {shifts:?}");
+    assert!(most <= 12 && bisected > 100 && shifts[9] > 0, "{most} {bisected} {shifts:?}");
+}
+
+fn judge_value(series: &Series<6>, p: u64) {
+    // The exact value, less what 2⁶⁴ parts of a unit lose: by Horner's rule with 32 bits more.
+    let exact = series.c.iter().rev().fold(0i128, |sum, c| {
+        let sum = sum + ((*c as i128) << 32);
+        (((sum >> 32) * p as i128) >> 32) + (((sum & 0xFFFF_FFFF) * (p >> 32) as i128) >> 32)
+    });
+    let exact = exact as f64 / f64::from(WORD) * power_of_two_f64(series.shift as i32);
+    let low = exact - series.at(p) as f64;
+    let most = 15.0 * power_of_two_f64(series.shift as i32) * p as f64 / power_of_two_f64(64) + 1.0;
+    // An f64 of the value has units of up to 2⁹.
+    assert!((-1024.0..most + 1024.0).contains(&low), "{low} at {p}, of {most}: {:?}", series.c);
+}
+
+/// The look-up leads to the octave that was built for a fraction, and its offset to the fraction; Horner's rule rounds
+/// each product down.
+#[test]
+fn the_octave_of_a_fraction() {
+    let (mut rng, mut seen) = (Rng::new(95, 0), 0);
+    for (inverse, [opening, closing]) in ramps().filter_map(|r| Some((Inverse::<8>::new(&r[0], &r[1]).ok()?, r))) {
+        let (exposure, shapes) = Exposure::new(&opening, &closing).expect("as before");
+        for (side, ramp) in Side::BOTH.into_iter().flat_map(|side| Side::BOTH.map(|ramp| (side, ramp))) {
+            let first_top = build(&exposure, &shapes, side, &mut [Octave::NONE; 8])[ramp as usize];
+            let [from, to] = range(&exposure, side, ramp);
+            for _ in 0..1000 {
+                let a = fraction(&mut rng);
+                if f64::from(a) <= from || f64::from(a) > to {
+                    continue;
+                }
+                let bits = a.to_bits();
+                let Some((octave, position)) = inverse.look_up(Fraction { side, bits }, ramp) else { continue };
+                if !octave.exists() {
+                    continue;
+                }
+                // The octave's top by its definition: halved until the fraction is above half of it.
+                let mut top = first_top;
+                while below(top, 1) >= bits {
+                    top = below(top, 1);
+                }
+                let power = f64::from(f32::from_bits(top & 0xFF80_0000));
+                let exact = (f64::from(a) / power * power_of_two_f64(32)) as i128;
+                assert_eq!(position as u32, exact as u32, "{a}");
+                let (center, shift) = (octave.center, octave.center & 31);
+                // Position and center may have wrapped: the nearest distance that both words allow.
+                let distance = (exact as u32).wrapping_sub(center) as i32 as i128;
+                let x = octave.offset(position);
+                assert_eq!(i128::from(x), distance << shift, "{a}");
+                let wide = octave.c.iter().fold(0i128, |sum, c| ((sum + i128::from(*c)) * i128::from(x)) >> 32);
+                assert_eq!(i128::from(octave.polynomial(x)), wide, "{a}");
+                assert_eq!(octave.time(x), (i128::from(octave.middle) + i128::from(octave.factor) * wide) as i64);
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 10_000, "{seen}");
+}
+
+/// The plateau's line, rounded down; and each answer, of a line, a polynomial or a search, is its time in units, rounded
+/// once.
+#[test]
+fn a_time_in_units_is_rounded_once() {
+    let (mut rng, mut lines, mut near_0) = (Rng::new(96, 0), 0, 0);
+    for inverse in inverses() {
+        let (exposure, unit) = (&inverse.exposure, inverse.exposure.units().exponent);
+        let start = exposure.end_time(Side::Start);
+        let [near, far] = exposure.join_fractions(Side::Start);
+        // Across time 0 also the fractions about it.
+        let at_0 = crate::cdf::cdf(exposure, 0.0);
+        for k in 0..3000 {
+            let u = match k % 3 {
+                0 => fraction(&mut rng),
+                1 => 1.0 - fraction(&mut rng),
+                _ => f32::from_bits(at_0.to_bits().saturating_add(k).saturating_sub(1500)).min(1.0),
+            };
+            let fraction = Fraction::new(u);
+            let time = inverse.time_units(fraction);
+            // Next to the end a frame is not on the line, from the start it is.
+            if fraction.side.is_end() && fraction.get() <= 1.0 / 512.0 {
+                continue;
+            }
+            let rounded = (time as f64 * power_of_two_f64(unit)) as f32;
+            // An f64 holds all but the longest, and those to far more than an f32.
+            let exact = if time.unsigned_abs() < 1 << 53 { rounded } else { time as f32 * power_of_two(unit) };
+            assert_eq!(inverse.inverse_cdf(u), exact.max(start), "{u:e}");
+            near_0 += u32::from(time.unsigned_abs() < 1 << 57 && time != 0);
+            let is_on_line = f64::from(u) > near * 1.000_001 && f64::from(u) < far * 0.999_999 && u > 1.0 / 512.0;
+            if is_on_line {
+                let word = (f64::from(u) * power_of_two_f64(32)) as i128;
+                let line = i128::from(exposure.line_base) + ((i128::from(exposure.line_slope) * word) >> 32);
+                assert_eq!(i128::from(time), line, "{u:e}");
+                lines += 1;
+            }
+        }
+    }
+    assert!(lines > 10_000 && near_0 > 100, "{lines} {near_0}");
+}
+
+/// A search rounds its fraction to the nearest multiple of 2⁻⁴⁷: on a box the time is that share of its length.
+#[test]
+fn a_search_rounds_its_fraction_to_the_grid() {
+    let [opening, closing] = [0.0, 1.0].map(|t| CubicBezier::new([(t, 1.0); 4]));
+    let (exposure, _) = Exposure::new(&opening, &closing).expect("a box");
+    let mut rng = Rng::new(97, 0);
+    for _ in 0..10_000 {
+        let a = fraction(&mut rng) * power_of_two(-(rng.below(30) as i32));
+        let grid = (f64::from(a) * power_of_two_f64(47) + 0.5).floor() / power_of_two_f64(47);
+        let [from_start, from_end] =
+            Side::BOTH.map(|side| exposure.time_units(Fraction { side, bits: a.to_bits() }).0 as f64);
+        let one = exposure.in_units(1.0) as f64;
+        assert!((from_start - grid * one).abs() <= 2.0, "{a:e}");
+        assert!((one - from_end - grid * one).abs() <= 1024.0, "{a:e}");
+    }
+    assert_eq!(exposure.ramp(Side::Start).share + exposure.plateau + exposure.ramp(Side::End).share, ONE);
+}
+
+/// A tick is the nearest one to the exact product of delay and rate; and a rate is accepted as long as the interval has
+/// 2³¹ ticks or fewer.
+#[test]
+fn a_tick_is_the_nearest() {
+    let mut rng = Rng::new(98, 0);
+    for inverse in inverses() {
+        let (exposure, e) = (&inverse.exposure, inverse.exposure.units().exponent);
+        let [start, end] = Side::BOTH.map(|side| exposure.in_units(exposure.end_time(side)));
+        let length = end - start;
+        // In half ticks, rounded down: 128 bits hold all that is not 0.
+        let halves = |delay: i64, rate: u32| {
+            let product = i128::from(delay) * i128::from(rate);
+            if e >= -1 { product << (e + 1).min(30) } else { product >> (-1 - e).min(127) }
+        };
+        for k in 0..64 {
+            let rate = if k < 32 { 1 << k } else { (rng.bits() as u32 | 1 << 31) >> (k - 32) };
+            let product = i128::from(length) * i128::from(rate);
+            let is_short = if e <= 31 { product <= 1i128 << (31 - e).min(126) } else { false };
+            let scale = TickScale::new(&inverse, Hz(rate));
+            assert_eq!(scale.is_ok(), is_short, "{rate} {e} {length}");
+            let Ok(scale) = scale else { continue };
+            for _ in 0..40 {
+                let delay = ((rng.bits() >> 1) as i64 >> rng.below(60)) % (length + 1);
+                let tick = (halves(delay, rate) + 1) >> 1;
+                assert_eq!(i128::from(scale.tick(start + delay)), tick, "{delay} {rate} {e}");
+            }
+            assert_eq!(i128::from(scale.tick(end)), (halves(length, rate) + 1) >> 1);
+        }
+    }
+}
