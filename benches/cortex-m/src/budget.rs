@@ -11,8 +11,8 @@ pub fn run() -> Result {
     println!("{}", made_with()?);
     let functions = [InverseCdf, Static, Cdf, Openness, Tick, Schedule, Construct, NearerEnd].map(|f| (f, DEFAULT));
     let functions = [&functions[..], &[(InverseCdf, 0)]].concat();
-    let m4f = Measured::new(M4F, &functions, ALL_RAMP + 1)?;
-    let m0 = Measured::new(M0, &functions, ALL_RAMP + 1)?;
+    let m4f = Measured::new(M4F, &functions, ALL_RAMP + 1, &[InverseCdf, Static, Tick].map(|f| (f, DEFAULT)))?;
+    let m0 = Measured::new(M0, &functions, ALL_RAMP + 1, &[])?;
 
     let cycles = |function, curve| m4f.mean((function, DEFAULT), curve).map(|[_, cycles]| cycles);
     let worst = |function, is_direct| m4f.worst((function, DEFAULT), is_direct).map(f64::from);

@@ -9,7 +9,7 @@ use measured::{trigger, uniform};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
-use crate::firmware::{Core, M4F};
+use crate::firmware::Core;
 use crate::support::curves::Rng;
 use crate::trace::{Call, Run, run};
 
@@ -37,15 +37,15 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Of these functions on the first so many curves at uniform fractions, and on a Cortex-M4F on all at hard ones.
-    pub fn new(core: Core, functions: &[Of], curves: usize) -> Result<Self> {
+    /// Of these functions on the first so many curves at uniform fractions, and of some on all at hard ones.
+    pub fn new(core: Core, functions: &[Of], curves: usize, at_hard: &[Of]) -> Result<Self> {
         eprintln!("measuring a {} ...", core.name);
         let elf = core.build("cost")?;
         let built = core.output(&elf)?;
         if built.len() != CURVE_BYTES.iter().sum::<usize>() * CURVES.len() {
             return Err("the firmware's curves are not of the size that they have here".into());
         }
-        let mut series = series(core, functions, curves);
+        let mut series = series(core, functions, curves, at_hard);
         let asked = series.iter().flat_map(|series| {
             let head = [series.of.0 as u32, series.of.1 as u32, series.curve as u32, series.us.len() as u32];
             head.into_iter().chain(series.us.iter().map(|u| u.to_bits())).flat_map(u32::to_le_bytes)
@@ -96,10 +96,10 @@ impl Measured {
     }
 }
 
-fn series(core: Core, functions: &[Of], curves: usize) -> Vec<Series> {
+fn series(core: Core, functions: &[Of], curves: usize, at_hard: &[Of]) -> Vec<Series> {
     let mut all = Vec::new();
     for &(function, octaves) in functions.iter().filter(|(function, _)| *function != SqrtFpu || core.has_fpu()) {
-        for is_hard in [false, true] {
+        for is_hard in [false, true].into_iter().filter(|is_hard| !is_hard || at_hard.contains(&(function, octaves))) {
             let curves = match (is_hard, function) {
                 (false, Construct) => 0..1,
                 (false, _) => 0..curves,
@@ -108,7 +108,7 @@ fn series(core: Core, functions: &[Of], curves: usize) -> Vec<Series> {
                 (true, _) => 0..CURVES.len(),
             };
             let is_straight = function.is_for_straight_ramps();
-            for curve in curves.filter(|curve| (!is_hard || core == M4F) && (!is_straight || *curve == TRAPEZOID)) {
+            for curve in curves.filter(|curve| !is_straight || *curve == TRAPEZOID) {
                 let us = match (function, is_hard) {
                     (Construct | Schedule, _) => vec![0.0],
                     (_, false) => (0..512).map(uniform).collect(),

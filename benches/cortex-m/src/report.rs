@@ -33,7 +33,10 @@ const BUILDING: [(&str, Of); 2] =
 
 pub fn write() -> Result {
     let functions: Vec<Of> = CALLS.into_iter().chain(BUILDING).map(|(_, of)| of).collect();
-    let cores = [M4F, M33, M0, IMAFC, IMC].map(|core| Measured::new(core, &functions, TRAPEZOID + 1));
+    let cores = [M4F, M33, M0, IMAFC, IMC].map(|core| {
+        let at_hard = if core == M4F { &functions[..] } else { &[] };
+        Measured::new(core, &functions, TRAPEZOID + 1, at_hard)
+    });
     let cores = cores.into_iter().collect::<Result<Vec<_>>>()?;
     let page = format!(
         "# What it costs on a microcontroller
