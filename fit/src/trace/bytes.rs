@@ -52,7 +52,7 @@ pub fn decode(bytes: &[u8]) -> Result<String, Refusal> {
         return no_csv("it is empty");
     }
     // A logic analyser's list of changes has words of its own.
-    if text.trim_start().starts_with('$') && text.contains("$enddefinitions") {
+    if text.trim_start().starts_with('$') && ["$timescale", "$var"].iter().any(|word| text.contains(word)) {
         return no_csv("it is a VCD (value change dump): open it in PulseView or GTKWave, and save it as CSV");
     }
     if text.contains('\0') {

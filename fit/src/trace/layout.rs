@@ -73,6 +73,9 @@ impl Layout {
         }
         let settings = table.settings();
         let sync = options.sync.as_ref().map(|sync| columns.sync(sync, &asked)).transpose()?;
+        if let (Some(number), true) = (table.decimal(), asked.is_empty() && sync.is_none()) {
+            return Err(Refusal::Thousands { number });
+        }
         if let Some(rate) = options.rate {
             // The times of the file do not count then, so those that are asked for are signals.
             let signals = columns.signals(&asked, None, sync)?;
@@ -164,7 +167,9 @@ impl Columns<'_> {
     }
 
     fn runs(&self, k: usize) -> bool {
-        runs(&self.table.spread[k])
+        // Times of day in whole seconds do not rise often.
+        let rises = || self.table.spread[k].windows(2).any(|pair| pair[1] > pair[0]);
+        runs(&self.table.spread[k]) || self.table.is_clock(k) && rises()
     }
 
     /// Of the columns of times with a unit, the first.
@@ -229,8 +234,9 @@ impl Columns<'_> {
             return Ok(None);
         }
         let find = |is: &dyn Fn(&usize) -> bool| columns.iter().copied().find(|k| self.runs(*k) && is(k));
-        let named =
-            find(&|k| matches!(self.said(*k), Said::Unit(_))).or_else(|| find(&|k| self.said(*k) == Said::Time));
+        let has_unit = |k: &usize| matches!(self.said(*k), Said::Unit(_));
+        let named = find(&|k| has_unit(k) && !self.table.is_clock(*k)).or_else(|| find(&has_unit));
+        let named = named.or_else(|| find(&|k| self.said(*k) == Said::Time));
         if named.is_some() {
             return Ok(named);
         }
@@ -311,7 +317,7 @@ impl Columns<'_> {
     fn no_times(&self, settings: &Settings) -> Refusal {
         let text = self.table.text_beside();
         // A number with something else, or a date: a rate would not be what it says.
-        if let Some(text) = text.clone().filter(|text| text.starts_with(|c: char| c.is_ascii_digit())) {
+        if let Some(text) = text.clone().filter(|text| text.contains(|c: char| c.is_ascii_digit())) {
             return Refusal::NoPlainTimes { text };
         }
         let columns = self.table.told(self.table.columns.iter().copied());

@@ -93,10 +93,11 @@ pub fn unit_of(word: &str) -> Option<Unit> {
     }
 }
 
-/// What a setting of this name tells.
+/// What a setting of this name tells, be it `Units` or `Unit`.
 pub fn setting(name: &str) -> Option<Means> {
     let is_one = |means: &Means| matches!(means, Step | Rate | Start | StartBelow | ScaleUnit | TimeUnit | Names);
-    meaning(&words(name).concat()).filter(is_one)
+    let name = words(name).concat();
+    meaning(&name).or_else(|| meaning(&(name + "s"))).filter(is_one)
 }
 
 /// What the name of a column says of it.

@@ -51,11 +51,12 @@ impl Form {
         self.number(field).or_else(|| time_of_day(field))
     }
 
-    /// The share of the fields in these lines that are numbers or times of day; no instrument writes a whole number as
+    /// The share of the fields in these lines that are numbers or times of day. Few instruments begin a number with
     /// `05`, so that is the half of a decimal.
     pub fn fits(self, lines: &[&str]) -> f64 {
-        let is_half =
-            |field: &str| field.len() > 1 && field.starts_with('0') && field.bytes().all(|b| b.is_ascii_digit());
+        let is_half = |field: &str| {
+            field.starts_with('0') && field[1..].starts_with(|c: char| c.is_ascii_digit()) && !field.contains(':')
+        };
         let (mut all, mut numbers) = (0.0, 0.0);
         for field in lines.iter().flat_map(|line| self.split(line)).filter(|field| !field.is_empty()) {
             all += 1.0;
@@ -68,6 +69,7 @@ impl Form {
 /// The seconds since midnight of a time of day, as `14:06:09.25` or `2026-01-30T14:06:09.25Z`. Which day it is does not
 /// count: so far from 0, `f64` would not hold a nanosecond.
 pub fn time_of_day(field: &str) -> Option<f64> {
+    let field = field.trim_matches(['[', ']']);
     let is_date = |text: &str| text.starts_with(|c: char| c.is_ascii_digit()) && !text.contains([':', ' ']);
     let clock = match field.rsplit_once(['T', ' ']) {
         Some((date, clock)) => Some(clock).filter(|_| is_date(date))?,

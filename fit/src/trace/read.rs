@@ -40,7 +40,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
         warnings.push(Warning::Changes);
     }
     let is_asked = |t: f64| options.from.is_none_or(|from| t >= from) && options.to.is_none_or(|to| t <= to);
-    let mut read = samples(&table, &layout, |rows| {
+    let mut read = samples(&table, &layout, changes, |rows| {
         rows.retain(|row| is_asked(row.time));
         if changes {
             *rows = staying(rows);
@@ -69,6 +69,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
 fn samples(
     table: &Table,
     layout: &Layout,
+    changes: bool,
     taken: impl Fn(&mut Vec<Sample>),
 ) -> Result<Vec<Result<Samples, Refusal>>, Refusal> {
     let signals: Vec<usize> = layout.signals.iter().copied().chain(layout.sync).collect();
@@ -93,6 +94,13 @@ fn samples(
                 let field = fields.get(*signal).copied().unwrap_or_default();
                 let value = time.clone().and_then(|time| Ok((time, sound("value", field, table.form.number(field))?)));
                 is_read |= value.is_ok();
+                match &time {
+                    // From here on the level is not known.
+                    Ok(time) if changes && value.is_err() && !field.is_empty() => {
+                        column.samples.push(Sample { time: *time, value: f64::NAN, line });
+                    }
+                    _ => (),
+                }
                 column.add(line, field, value);
             }
         }
@@ -108,7 +116,9 @@ fn samples(
         }
         rows += usize::from(!is_remark);
     }
-    let read = |(signal, column): (&usize, Column)| column.read(&taken, || layout.reading(table, *signal).to_string());
+    let read = |(signal, column): (&usize, Column)| {
+        column.read(changes, &taken, || layout.reading(table, *signal).to_string())
+    };
     Ok(signals.iter().zip(columns).map(read).collect())
 }
 
@@ -146,7 +156,12 @@ impl Column {
         }
     }
 
-    fn read(mut self, taken: impl Fn(&mut Vec<Sample>), reading: impl Fn() -> String) -> Result<Samples, Refusal> {
+    fn read(
+        mut self,
+        changes: bool,
+        taken: impl Fn(&mut Vec<Sample>),
+        reading: impl Fn() -> String,
+    ) -> Result<Samples, Refusal> {
         let mut warnings = Vec::new();
         if let Some((line, reason)) = self.first {
             let (count, rows) = (self.broken, self.samples.len() + self.broken);
@@ -156,7 +171,7 @@ impl Column {
             warnings.push(Warning::BrokenRows { count, line, reason });
         }
         taken(&mut self.samples);
-        let (trace, timing) = ordered(self.samples, &mut warnings);
+        let (trace, timing) = ordered(self.samples, changes, &mut warnings);
         Ok(Samples { trace, timing, warnings })
     }
 }

@@ -74,7 +74,7 @@ impl Settings {
                 let below = lines.get(k + 1).and_then(|(_, below)| below.get(c)).map_or("", String::as_str);
                 if let Some(means) = setting(name) {
                     let is_beside = means != Means::StartBelow && settings.add(means, &said, &beside, form);
-                    let _ = is_beside || settings.add(means, &said, below, form);
+                    let _ = is_beside || settings.add(means, &short_of(&format!("{field} {below}")), below, form);
                 }
             }
             let words = line.to_lowercase();

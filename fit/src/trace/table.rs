@@ -11,6 +11,8 @@ const LONGEST_LINE: usize = 1 << 16;
 /// So many lines tell the form, and so many rows what a column holds.
 const LOOKED_AT: usize = 40;
 pub const JUDGED: usize = 300;
+/// A column of numbers has so many at least, or has them in most rows.
+const FEW: usize = 8;
 /// What stands above the numbers is shorter than this, in lines.
 const LONGEST_HEADER: usize = 500;
 /// With so many numbers in a line, and fewer lines than this, the lines are columns.
@@ -115,26 +117,38 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// Finds the columns of numbers, and tells for each column whether something stands in most rows. Empty fields say
-    /// nothing of a column: it may have been recorded for a part of the times.
+    /// Finds the columns of numbers, and tells for each column whether something stands in most rows. Words count in the
+    /// last third alone, which is no header. Empty fields say nothing of a column: it may have been recorded for a part
+    /// of the times.
     fn judge(&mut self, total: usize) -> Vec<bool> {
-        let lines = filled_lines(self.text).skip(total / 3).step_by(total / JUDGED + 1);
-        let (mut counts, mut rows) = (Vec::<[usize; 3]>::new(), 0);
-        for line in lines.filter(|line| !line.starts_with('#')) {
-            rows += 1;
-            for (k, field) in self.form.split(line).enumerate() {
-                if counts.len() == k {
-                    counts.push([0; 3]);
+        #[derive(Clone, Default)]
+        struct Count {
+            numbers: usize,
+            clocks: usize,
+            words: usize,
+            filled: usize,
+        }
+        let (mut counts, mut rows, mut last) = (Vec::<Count>::new(), 0, 0);
+        let lines = filled_lines(self.text).enumerate().step_by(total / JUDGED + 1);
+        for (i, line) in lines.filter(|(_, line)| !line.starts_with('#')) {
+            let is_last = usize::from(3 * i >= 2 * total);
+            (rows, last) = (rows + 1, last + is_last);
+            for (k, field) in self.form.split(line).enumerate().filter(|(_, field)| !field.is_empty()) {
+                counts.resize(counts.len().max(k + 1), Count::default());
+                let count = &mut counts[k];
+                count.filled += is_last;
+                match self.form.cell(field) {
+                    Some(_) => count.numbers += 1,
+                    None => count.words += is_last,
                 }
-                counts[k][0] += usize::from(!field.is_empty());
-                counts[k][1] += usize::from(self.form.cell(field).is_some());
-                counts[k][2] += usize::from(self.form.number(field).is_some());
+                count.clocks += usize::from(self.form.number(field).is_none() && self.form.cell(field).is_some());
             }
         }
-        let holds_numbers = |k: &usize| 2 * counts[*k][1] > counts[*k][0] && 5 * counts[*k][1] >= rows;
+        let is_often = |n: usize| 5 * n >= rows || n >= FEW && 20 * n >= rows;
+        let holds_numbers = |k: &usize| counts[*k].numbers > counts[*k].words && is_often(counts[*k].numbers);
         self.columns = (0..counts.len()).filter(holds_numbers).collect();
-        self.clocks = self.columns.iter().copied().filter(|k| 2 * counts[*k][2] < counts[*k][1]).collect();
-        counts.iter().map(|[filled, ..]| 2 * filled > rows).collect()
+        self.clocks = self.columns.iter().copied().filter(|k| 2 * counts[*k].clocks > counts[*k].numbers).collect();
+        counts.iter().map(|count| 2 * count.filled > last).collect()
     }
 
     /// Does a line have something in no column where most rows have nothing?
@@ -172,7 +186,7 @@ impl<'a> Table<'a> {
         let line = filled_lines(self.text).nth(total / 2).unwrap_or_default();
         let shown = line.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60);
         let is_labelled = |field: &str| {
-            let label = field.split_once(':').filter(|(label, _)| label.starts_with(char::is_alphabetic));
+            let label = field.split_once([':', '=']).filter(|(label, _)| label.starts_with(char::is_alphabetic));
             label.is_some_and(|(_, number)| self.form.number(number.trim()).is_some())
         };
         let mut fields = line.split([',', ';', '\t', ' ']).filter(|field| !field.is_empty()).peekable();
@@ -318,6 +332,18 @@ impl<'a> Table<'a> {
         let (_, row) = self.rows().next()?;
         let mut fields = self.form.split(row);
         fields.find(|field| !field.is_empty() && self.form.cell(field).is_none()).map(short_of)
+    }
+
+    /// A row that may be a value alone with a decimal comma, if all are like that and few whole numbers come before it.
+    pub fn decimal(&self) -> Option<String> {
+        let alone = Form { delimiter: ';', comma: true };
+        let rows: Vec<&str> = self.rows().map(|(_, row)| row).take(JUDGED).collect();
+        let mut whole = self.first[0].clone();
+        whole.sort_by(f64::total_cmp);
+        whole.dedup();
+        let is_pair = self.form == Form { delimiter: ',', comma: false } && self.columns == [0, 1];
+        let is_one = is_pair && self.names[0].is_empty() && 4 * whole.len() <= rows.len() && alone.fits(&rows) == 1.0;
+        is_one.then(|| short_of(rows[0]))
     }
 
     /// A column's number with the word that stands behind it in a row between blanks, which may be its unit.

@@ -131,8 +131,8 @@ fn stamped(rows: &[Sample]) -> Option<(usize, f64)> {
     is_one.then_some((length, scatter / 2f64.sqrt()))
 }
 
-/// The samples in order, those of the same time averaged, and what is known of the times.
-pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Timing) {
+/// The samples in order, those of the same time averaged, and what is known of the times, which may be those of changes.
+pub fn ordered(mut rows: Vec<Sample>, are_changes: bool, warnings: &mut Vec<Warning>) -> (Trace, Timing) {
     let mut timing = Timing { segments: apart(&mut rows), ..Timing::default() };
     if let Some(pair) = rows.windows(2).find(|pair| pair[1].time < pair[0].time) {
         warnings.push(Warning::Unsorted { line: pair[1].line });
@@ -140,7 +140,7 @@ pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Ti
     } else if let (Some((to, spread)), true) = (spread(&mut rows), timing.segments.is_empty()) {
         warnings.push(Warning::RoundedTimes { to });
         timing = spread;
-    } else if let Some((rows, error)) = stamped(&rows) {
+    } else if let Some((rows, error)) = stamped(&rows).filter(|_| !are_changes) {
         warnings.push(Warning::StampedBlocks { rows, error });
         timing.each = error;
     }
@@ -172,15 +172,16 @@ pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Ti
 /// the last row cut.
 pub fn lists_changes<'a>(table: &Table<'a>, time: usize) -> bool {
     let others = || table.columns.iter().filter(|k| **k != time);
-    let rows: Vec<Vec<&'a str>> = table.rows().take(JUDGED).map(|(_, row)| table.form.split(row).collect()).collect();
     let field = |row: &[&'a str], k: usize| row.get(k).copied().unwrap_or_default();
+    let rows = table.rows().take(JUDGED).map(|(_, row)| table.form.split(row).collect::<Vec<&'a str>>());
+    let rows: Vec<_> = rows.filter(|row| others().any(|k| !field(row, *k).is_empty())).collect();
     let is_switch = |k: &usize| {
         let mut levels: Vec<f64> = rows.iter().filter_map(|row| table.form.number(field(row, *k))).collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup();
         levels.len() <= 2
     };
-    let times = &table.first[time];
+    let times = &table.first[time][..rows.len().min(table.first[time].len())];
     let (least, most) = range(times.windows(2).map(|pair| pair[1] - pair[0]));
     let changes = |pair: &&[Vec<&'a str>]| others().any(|k| field(&pair[0], *k) != field(&pair[1], *k));
     let n = rows.len();
@@ -192,7 +193,8 @@ pub fn lists_changes<'a>(table: &Table<'a>, time: usize) -> bool {
         && 10 * (rows.windows(2).filter(changes).count() + 1) >= 9 * n
 }
 
-/// A list of changes as samples of levels that stay in between: where they stay for long, at both ends alone.
+/// A list of changes as samples of levels that stay in between, unless they are NaN: where they stay for long, at both
+/// ends alone.
 pub fn staying(changes: &[Sample]) -> Vec<Sample> {
     let lengths: Vec<f64> = changes.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
     if lengths.is_empty() {
@@ -203,7 +205,8 @@ pub fn staying(changes: &[Sample]) -> Vec<Sample> {
     let stays = STAYS.min(100_000 / lengths.len() + 20);
     let last = stays as f64 * step;
     let mut samples = Vec::new();
-    for (change, length) in changes.iter().zip(lengths.iter().copied().chain([last])) {
+    let known = changes.iter().zip(lengths.iter().copied().chain([last])).filter(|(change, _)| !change.value.is_nan());
+    for (change, length) in known {
         let mut add = |since: f64| samples.push(Sample { time: change.time + since, ..*change });
         let count = (length / step).round().max(1.0);
         if count <= 2.0 * stays as f64 {

@@ -57,8 +57,8 @@ pub enum Refusal {
     #[error("'{first}' and '{second}' above the numbers tell different rates; give the right one")]
     TwoRates { first: String, second: String },
     #[error(
-        "'{number}' has marks that may part thousands, or a whole number from its fraction; export without separators \
-         of thousands"
+        "'{number}' has marks that may part thousands, or a whole number from its fraction; export plain numbers, \
+         with the columns' names above them"
     )]
     Thousands { number: String },
     #[error("there is no column '{name}'; there are {there}")]

@@ -77,7 +77,7 @@ type Export = (&'static str, &'static str, &'static str, &'static str);
 const EXPORTS: &[Export] = &[
     // Oscilloscopes.
     ("Rigol DS1054Z", "X,CH1,Start,Increment,\nSequence,VOLT,-6.000000e-03,1.000000e-05\n", "{i},{e},,",
-        "2 100000 samples a second, by 'X,CH1,Start,Increment,', the first at -6 ms"),
+        "2 100000 samples a second, by 'Increment 1.000000e-05', the first at -6 ms"),
     ("Rigol MSO5074", "X,CH1,Start,Increment,\nSequence,Volt,-6.000ms,10.000us,\n", "{i},{e},,",
         "2 the first at -6 ms"),
     ("Rigol DS1052E", "X,CH1,\nSecond,Volt,\n", "{T},{e},", "2 in s, by its name"),
@@ -149,6 +149,9 @@ const EXPORTS: &[Export] = &[
     ("Arduino, the time behind", "adc,t_us\n", "{adc},{us}", "1 in µs, by its name"),
     ("Arduino's plotter", "", "micros:{us},light:{adc}", "!a label before each number"),
     ("Arduino's monitor", "", "{day} -> {adc}", "3 column 1 in s, by the file"),
+    ("a terminal's stamps", "", "[{day}] {adc}", "2 column 1 in s, by the file"),
+    ("whole seconds beside", "Time,ms,V\n", "2024/05/01 10:00:07,{ms},{v}", "3 \"ms\" in ms, by its name"),
+    ("minutes and seconds", "", "10:07.5,{v}", "!'10:07.5' is no time that is read"),
     ("dates and times", "Time,Light\n", "2024-12-31T{day}+01:00,{v}", "2 in s, by the file"),
     ("with decimal commas", "Date;Light\n", "31.12.2024 {,day};{,v}", "2 in s, by the file"),
     ("with halves of days", "", "10:00:00 AM,{v}", "!'10:00:00 AM' is no time that is read"),
@@ -169,6 +172,7 @@ const EXPORTS: &[Export] = &[
     ("a spectrometer", "nm;counts\n", "{,ms};{,v}", "!'nm'"),
     ("an encoder", "Angle [°]\tV\n", "{us}\t{v}", "!'Angle [°]'"),
     ("a stage", "Position/mm V\n", "{us} {v}", "!\"Position/mm\" counts"),
+    ("an axis's unit alone", "X Unit,mm\nX,CH1\n", "{ms},{v}", "!'X Unit,mm'"),
     ("a sweep", "Volt,Ampere\n", "{ms},{v}", "!'Volt'"),
     ("a lens", "mm,mm\n", "{ms},{v}", "!'mm'"),
     // A name with more than a unit, settings that are no names, other numbers that are no rate.
@@ -187,6 +191,7 @@ const EXPORTS: &[Export] = &[
     ("one rises once", "CH1,CH2\n", "{up},{v}", "!2: CH1, CH2"),
     ("an index beside the time", "", "{i};{t};{v}", "3 column 2 in s, assumed|unit_assumed"),
     ("a count with a rate above", "# Sample rate: 100000 Hz\nSample,CH1\n", "{i},{v}", "2 by '# Sample rate"),
+    ("numbers with zeros before them", "t_us,adc\n", "00{us},0{adc}", "2 in µs, by its name"),
     ("quoted decimal commas", "", "\"{,ms}\",\"{,v}\"", "2 in s, assumed|unit_assumed"),
     ("a flat channel beside it", "Time [s],A,B\n", "{t},{z},{v}", "3 \"Time [s]\" in s"),
     ("cross-talk beside a steep pulse", "Time [s],A,B\n", "{t},{talk},{g}", "3 in s|second_signal"),

@@ -78,6 +78,7 @@ fn what_is_refused_is_shown() {
         ("$timescale 1 us $end\n$var wire 1 ! light $end\n$enddefinitions $end\n#0\n0!\n#500\n1!\n".into(), "VCD"),
         ("<html>".into(), "its middle line is '<html>'"),
         ("\n \n".into(), "it is empty"),
+        (with("", |_, _, v| format!("{},{:.0}", u8::from(v > 0.5), 9.0 * v)), "a whole number from its fraction"),
     ] {
         let said = refused(text.as_bytes());
         assert!(said.contains(words), "{words}: {said}");
@@ -356,6 +357,7 @@ fn a_list_of_changes_is_read_as_light_and_as_sync() {
         "Time [s],Channel 0\n0.0,0\n0.7,1\n0.7625,0\n",
         "Time [s],A\n0,X\n0.7,1\n0.7625,0\n1,1\n1.0625,0\n2.7,1\n2.7625,0\n3.",
         "Time [s],A,B\n0,0,0\n0.6,0,1\n0.7,1,1\n0.73,1,0\n0.7625,0,0\n1.2",
+        "Time [s],A\n0,0\n0.7,1\n0.7625,0\n1,1\n1.0625,X\n1.9,1\n1.9625,0\n2.7,1\n2.7625,0\n3.2,1\n3.2625,0\n0.",
         "t,A\n2025-12-31T23:59:59.9Z,0\n2026-01-01T00:00:00Z,1\n2026-01-01T00:00:00.062500000Z,0\n",
     ] {
         let (fit, _, codes) = doubted(list, None);
