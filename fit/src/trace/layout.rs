@@ -73,7 +73,7 @@ impl Layout {
         }
         let settings = table.settings();
         let sync = options.sync.as_ref().map(|sync| columns.sync(sync, &asked)).transpose()?;
-        if let (Some(number), true) = (table.decimal(), asked.is_empty() && sync.is_none()) {
+        if let (Some(number), true) = (table.decimal(), asked.is_empty() && sync.is_none() && !columns.runs(0)) {
             return Err(Refusal::Thousands { number });
         }
         if let Some(rate) = options.rate {
