@@ -35,7 +35,7 @@ use crate::trigger::timed::TimedCurve;
 /// rest.
 ///
 /// With the default of 8, about one fraction in 400 of a typical curve needs a search. With 0, every fraction on a ramp
-/// does. The promised accuracy is always the same. A curve takes 376 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
+/// does. The promised accuracy is always the same. A curve takes 368 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
 /// Above 16, a constant may exceed the compiler's limit on constant evaluation.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {

@@ -13,9 +13,11 @@ use crate::support::curves::{
 use crate::support::designs::DESIGNS;
 use crate::support::oracle::{Curve, Dd, Exact, Points, exp2};
 use crate::support::promise::{
-    BACKWARD, FORWARD, FORWARD_MEAN, Figures, Questions, Reach, SCALAR, TICK, TYPICAL_TICK, VALUE,
+    BACKWARD, BACKWARD_FLOOR, CDF_FLOOR, CDF_STEP_BACK, DENSITY_FLOOR, FORWARD, FORWARD_MEAN, Figures, Questions,
+    Reach, SCALAR, TICK, TYPICAL_TICK, VALUE,
 };
 use crate::support::times;
+use shutter_curve::MAX_EVALUATIONS;
 
 const SEED: u64 = 13;
 /// What is asked of curves that are few.
@@ -38,6 +40,8 @@ fn the_pages_have_these_numbers() {
         (accuracy, "`cdf`", format!("{VALUE} ulp ")),
         (accuracy, "`openness` and `pdf`", format!("{VALUE} ulp ")),
         (accuracy, "`exposure`", format!("{SCALAR} ulp ")),
+        (accuracy, "steps of a search", format!("at most {MAX_EVALUATIONS} ")),
+        (accuracy, "`cdf` as `t` grows", format!("decreases by at most {CDF_STEP_BACK} ulp ")),
         (accuracy, "a tick, typical", format!("{TYPICAL_TICK} tick ")),
         (accuracy, "a tick, every", format!("{TICK} tick ")),
         (accuracy, "a pulse's `on`", format!("{TICK} tick ")),
@@ -48,6 +52,9 @@ fn the_pages_have_these_numbers() {
         let (_, told) = page.split_once(&format!("\n| {row}")).unwrap_or_else(|| panic!("no {row}"));
         assert!(told.split(" | ").nth(1).is_some_and(|it| format!("{it} ").starts_with(&promise)), "{row}: {promise}");
     }
+    let floors = [BACKWARD * BACKWARD_FLOOR, CDF_FLOOR, DENSITY_FLOOR].map(f64::log2);
+    assert_eq!(floors, [-47.0, -24.0, -57.0]);
+    assert!(["at most 2⁻⁴⁷", "2⁻²⁴, for", "below 2⁻⁵⁷"].iter().all(|told| accuracy.contains(told)));
 }
 
 /// With every number of octaves, or with some in turn.

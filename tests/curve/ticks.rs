@@ -395,6 +395,12 @@ fn a_large_curve_is_a_constant_too() {
     assert_eq!(LARGE.inverse_cdf(0.5), 0.5);
 }
 
+#[test]
+fn a_curve_has_so_many_bytes() {
+    assert_eq!(size_of::<ShutterCurve>(), 1136);
+    assert_eq!([size_of::<ShutterCurve<0>>(), size_of::<ShutterCurve<64>>()], [368, 368 + 96 * 64]);
+}
+
 /// The worst direct tick is one number: the README's, the measured table's, and the one that the firmware example
 /// leaves time for.
 #[test]
@@ -404,7 +410,7 @@ fn one_figure_for_the_worst_direct_tick() {
         let (number, _) = rest.split_once(after).unwrap();
         number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
     };
-    let readme = number(include_str!("../../README.md"), "take at most", " cycles");
+    let readme = number(include_str!("../../README.md"), "took at most", " cycles");
     let example = include_str!("../../examples/trigger/firmware.rs");
     assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
     // | a tick | soft | all ramp | trapezoid | worst | direct | ...
