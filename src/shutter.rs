@@ -27,6 +27,8 @@ use crate::trigger::timed::TimedCurve;
 /// 5. Each part has zero length, or at least 2⁻²⁴ of that larger number.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
+/// Lengths are compared in `f64`, so one may be too small by a 2⁻⁵³ of itself.
+///
 /// # Octaves
 ///
 /// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles: 1/4 to 1/2, 1/8 to 1/4, and so on.

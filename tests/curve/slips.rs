@@ -82,17 +82,20 @@ fn compiled(folder: &Path, source: &Path, with: &[&str]) -> (bool, String) {
 }
 
 #[test]
-fn slips_do_not_compile_and_the_readme_does() {
+fn slips_do_not_compile_and_the_pages_do() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("slips");
     std::fs::create_dir_all(&folder).unwrap();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs");
     let (is_built, said) = compiled(&folder, &root, &["--crate-name=shutter_curve"]);
     assert!(is_built, "{said}");
     let library = format!("--extern=shutter_curve={}", folder.join("libshutter_curve.rmeta").display());
-    // Firmware, which a doctest cannot be.
-    let (_, readme) = include_str!("../../README.md").split_once("```rust,ignore\n").unwrap();
-    std::fs::write(folder.join("readme.rs"), readme.split("```").next().unwrap()).unwrap();
-    assert_eq!(compiled(&folder, &folder.join("readme.rs"), &[&library]), (true, String::new()));
+    // Firmware, which a doctest cannot be: the first code that names the crate.
+    for page in [include_str!("../../README.md"), include_str!("../../docs/firmware.md")] {
+        let code = page.split("```").find(|block| block.contains("use shutter_curve::")).unwrap();
+        let source = folder.join("page.rs");
+        std::fs::write(&source, code.split_once('\n').unwrap().1).unwrap();
+        assert_eq!(compiled(&folder, &source, &[&library]), (true, String::new()));
+    }
     for (name, slips) in [("types.rs", WRONG_TYPES), ("values.rs", WRONG_VALUES)] {
         // Each on a line, which the compiler names.
         let lines = slips
