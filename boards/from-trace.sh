@@ -50,7 +50,7 @@ for board in "stm32f4 100MHz" "pico 125MHz"; do
     read -r board hertz <<<"$board"
     fire rising "$board" "$hertz" "${pulses[@]}"
     fire falling "$board" "$hertz" "${triggers[@]}"
-    refused "a flash comes too soon" fire falling "$board" "$hertz" --set-up emulated --triggers 4000
+    refused "a flash comes too soon" fire falling "$board" "$hertz" --set-up emulated --min-gap 0 --triggers 4000
     # Firmware that takes the rising edge of every sync.
     plan falling "$board" "$hertz" "${pulses[@]}"
     sed -i 's/bit(leaf::SYNC_FALLS)/bit(false)/; s/if leaf::SYNC_FALLS {$/if false {/' "$scratch/$board/src/main.rs"

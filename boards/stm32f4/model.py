@@ -178,7 +178,7 @@ leaf = (source / "leaf.rs").read_text()
 number = lambda name, text: int(re.search(rf"{name}: u32 = (\w+);", text)[1].replace("_", ""))
 array = lambda name: re.search(rf"{name}: \[.*?\] = \[([^\]]*)\];", leaf)
 numbers = lambda found: [int(number) for number in re.findall(r"\d+", found[1])]
-TIMER_HZ, delay = number("TIMER_HZ", leaf), number("DELAY_TICKS", leaf)
+TIMER_HZ, delay, hold_off = (number(name, leaf) for name in ("TIMER_HZ", "DELAY_TICKS", "HOLD_OFF_TICKS"))
 pulse = number("PULSE", (source / "main.rs").read_text())
 FALLS = "SYNC_FALLS: bool = true;" in leaf
 pulses = array("PULSES")
@@ -186,9 +186,10 @@ changes = numbers(pulses) if pulses else [tick + end for tick in numbers(array("
 chip = Chip(sys.argv[1])
 second = TIMER_HZ
 # Frames: one; one whose edge comes before the counter wraps and its flashes after; one after an edge that bounced, and
-# during which another comes.
-frames = [second, WRAP - delay // 2, WRAP + 3 * second]
-chip.syncs = [*frames[:2], WRAP + 2 * second, WRAP + 2 * second + 3, frames[2], frames[2] + delay + changes[3]]
+# during and after which others come before lamp and sync are ready; and one that comes then.
+frames = [second, WRAP - delay // 2, WRAP + 3 * second, WRAP + 3 * second + hold_off + 500]
+chip.syncs = [*frames[:2], WRAP + 2 * second, WRAP + 2 * second + 3, frames[2], frames[2] + delay + changes[3],
+              frames[2] + hold_off - 500, frames[3]]
 chip.run()
 expected = [frame + delay + change for frame in frames for change in changes]
 if chip.edges != expected:

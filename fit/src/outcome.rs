@@ -128,6 +128,7 @@ pub struct Test {
 }
 
 /// What came out.
+#[derive(Clone)]
 pub struct Fit {
     /// Every kind, simplest first.
     pub candidates: Vec<Candidate>,

@@ -14,6 +14,7 @@ const [leaf, main] = ["leaf.rs", "main.rs"].map((name) => readFileSync(join(sour
 const number = (name, text) => Number(text.match(`${name}: u32 = (\\w+);`)[1].replaceAll("_", ""));
 const array = (name) => leaf.match(`${name}: \\[.*?\\] = \\[([^\\]]*)\\];`)?.[1].match(/\d+/g).map(Number);
 const delay = number("DELAY_TICKS", leaf);
+const holdOff = number("HOLD_OFF_TICKS", leaf);
 const pulse = number("PULSE", main);
 const changes = (array("PULSES") ?? array("TICKS").flatMap((tick) => [tick, tick + pulse])).map((tick) => delay + tick);
 const falls = leaf.includes("SYNC_FALLS: bool = true;");
@@ -32,10 +33,12 @@ for (let frame = 0; frame < FRAMES; frame++) {
   board.run(1000 + 777 * frame);
   const edge = board.cycle;
   board.drive(SYNC, !falls);
-  // The second frame's sync comes again while the frame runs.
-  board.run(changes[0]);
-  if (frame === 1) for (const level of [falls, !falls]) board.drive(SYNC, level), board.run(100);
-  board.run(edge + changes.at(-1) + 10_000 - board.cycle);
+  // The second frame's sync comes again while the frame runs, and before lamp and sync are ready for another.
+  for (const at of [changes[0], Math.max(holdOff - 500, changes.at(-1))]) {
+    board.run(edge + at - board.cycle);
+    if (frame === 1) for (const level of [falls, !falls]) board.drive(SYNC, level), board.run(100);
+  }
+  board.run(edge + Math.max(holdOff, changes.at(-1)) + 200 - board.cycle);
   const found = edges.splice(0).map((cycle) => cycle - edge);
   if (found.join() !== changes.join()) {
     throw new Error(`frame ${frame}: the line changes at ${found}, not at ${changes}`);

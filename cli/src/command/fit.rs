@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
 use shutter_fit::trace::{self, Column, Light, Refusal, Tell, Warning};
-use shutter_fit::unit::{Unit, count, short};
+use shutter_fit::unit::{Unit, count, short, stops};
 use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
 
 use super::fit_many::{self, Speed};
@@ -106,6 +106,19 @@ pub struct Args {
 }
 
 impl Args {
+    /// So many of the columns are the time's, unless it is the file's own that is counted by; none of a single one.
+    fn clock(&self) -> Result<Option<usize>, String> {
+        let [first, _, _, ..] = &self.columns[..] else {
+            return Ok((self.columns.len() == 2).then(|| usize::from(self.rate.is_none())));
+        };
+        let mut alone = self.asked().0;
+        alone.columns = vec![Column::parse(first)];
+        // A column of signals has a time beside it.
+        let is_signal = Read::new(&self.trace, &alone, &Options::default(), None)
+            .is_ok_and(|read| read.reading.time.is_some_and(|time| time.0 != read.reading.signal.0));
+        Ok(Some(usize::from(self.rate.is_none() && !is_signal)))
+    }
+
     /// How a trace is read, and what its fit is asked for.
     fn asked(&self) -> (trace::Options, Options) {
         let &Self { unit, rate, from, to, light, full, frame, model, tolerance, mains, .. } = self;
@@ -155,14 +168,13 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             return Err(format!("{}: it is given twice", shown(paths[i])));
         }
     }
-    let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
-    if args.columns.len() > clock + 1 {
-        if traces.len() > 1 || args.out.is_some() || args.picture.is_some() {
-            return Err(
-                "--columns: several sensors have no scene, no picture and no other trace; name one of them".into()
-            );
+    if let Some(clock) = args.clock()?
+        && args.columns.len() > clock + 1
+    {
+        if args.out.is_some() || args.picture.is_some() {
+            return Err("--columns: several sensors have no scene and no picture; name one of them".into());
         }
-        return sensors(args, clock, sync(0), out, err);
+        return sensors(args, &traces, clock, sync, out, err);
     }
     let scenes = args.out.as_ref().map_or(Vec::new(), |file| scenes(file, &traces));
     let printed = (args.report == Report::Json).then_some(Path::new("-"));
@@ -202,10 +214,10 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let mut said = Said::default();
     let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut said);
     let mut told = String::new();
-    for Speed { name, warnings: of, .. } in &speeds {
-        let whose = if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
-        told.extend(of.iter().map(|warning| format!("warning: {whose}{}\n", warning.with_option())));
-    }
+    let mut warnings = Told::default();
+    speeds.iter().for_each(|speed| warnings.add(&speed.name, &speed.warnings));
+    told += &warnings.text(speeds.len() > 1);
+    told.extend(speeds.iter().filter_map(far_from_nominal));
     told += &said.told;
     let report = match (args.report, speeds.as_slice()) {
         (Report::Json, speeds) => json(speeds),
@@ -230,45 +242,88 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     ended
 }
 
-/// Several sensors of one record, all of one shot; so many columns before theirs are the time's.
-fn sensors(
+/// Several sensors of each record, all of one shot; so many columns before theirs are the time's.
+fn sensors<'a>(
     args: &Args,
+    traces: &[&Path],
     clock: usize,
-    sync: Option<&Asked>,
+    sync: impl Fn(usize) -> Option<&'a Asked>,
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> Result<(), String> {
     let (time, signals) = args.columns.split_at(clock);
-    let (mut all, mut told) = (Vec::<Speed>::new(), String::new());
-    for signal in signals {
-        let columns = [time, std::slice::from_ref(signal)].concat();
-        let frame = args.frame.or(all.first().map(|first| first.fit.frames.fitted));
-        let one = Args { columns, frame, ..args.clone() };
-        let (how, options) = one.asked();
-        let read = Read::new(&args.trace, &how, &options, sync)?;
-        let refused = |reason| format!("{}: column {signal}: {reason}", shown(&args.trace));
-        let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.with_option()))?;
-        let Speed { fit, warnings, .. } = measure(&[read], &[record], args.triggers).map_err(refused)?;
-        let here = fit.frames.count;
-        let first = all.first().map_or(here, |first| first.fit.frames.count);
-        if first != here && args.frame.is_none() {
-            return Err(format!(
-                "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing tells \
-                 which belong together; see --from, --to and --frame"
-            ));
+    let (mut all, mut told) = (Vec::new(), Told::default());
+    for (i, trace) in traces.iter().enumerate() {
+        let mut speed = Vec::<Speed>::new();
+        for signal in signals {
+            let columns = [time, std::slice::from_ref(signal)].concat();
+            let first = speed.first().map(|first| first.fit.frames);
+            let frame = args.frame.or(first.map(|first| first.fitted));
+            let (how, options) = Args { columns, frame, ..args.clone() }.asked();
+            let read = Read::new(trace, &how, &options, sync(i))?;
+            let refused = |reason| format!("{}: column {signal}: {reason}", shown(trace));
+            let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.with_option()))?;
+            let Speed { mut fit, warnings, .. } = measure(&[read], &[record], args.triggers).map_err(refused)?;
+            let (here, first) = (fit.frames.count, first.map_or(fit.frames.count, |first| first.count));
+            if first != here && args.frame.is_none() {
+                return Err(format!(
+                    "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing \
+                     tells which belong together; see --from, --to and --frame"
+                ));
+            }
+            fit.nominal = args.nominal.get(i).or(args.nominal.first()).copied();
+            let name = fit.reading.as_ref().and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
+            let name = if traces.len() > 1 { format!("{} {name}", file_name(trace)) } else { name };
+            told.add(&name, &warnings);
+            speed.push(Speed { name, fit, warnings });
         }
-        let reading = fit.reading.as_ref();
-        let name = reading.and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
-        told.extend(warnings.iter().map(|warning| format!("warning: {name}: {}\n", warning.with_option())));
-        all.push(Speed { name, fit, warnings });
+        all.push(speed);
     }
     let report = match args.report {
-        Report::Json => json(&all),
+        Report::Json => json(&all.concat()),
         Report::Text => sensors::table(&all),
     };
     print(out, &report)?;
-    let _ = err.write_all(told.as_bytes());
+    let _ = err.write_all(told.text(traces.len() * signals.len() > 1).as_bytes());
     Ok(())
+}
+
+/// Warnings, those of one code once, with the names of all that they are about.
+#[derive(Default)]
+struct Told(Vec<(String, Warning, Vec<String>)>);
+
+impl Told {
+    fn add(&mut self, name: &str, warnings: &[Warning]) {
+        for warning in warnings {
+            match self.0.iter_mut().find(|(_, other, _)| other.code() == warning.code()) {
+                Some((_, _, also)) => also.push(name.into()),
+                None => self.0.push((name.into(), warning.clone(), Vec::new())),
+            }
+        }
+    }
+
+    fn text(&self, is_named: bool) -> String {
+        let line = |(name, warning, also): &(String, Warning, Vec<String>)| {
+            let name = if is_named { format!("{name}: ") } else { String::new() };
+            let also = if also.is_empty() { String::new() } else { format!("; so it is with {}", also.join(", ")) };
+            format!("warning: {name}{}{also}\n", warning.with_option())
+        };
+        self.0.iter().map(line).collect()
+    }
+}
+
+/// What is called by another speed is another one, or its trace is.
+fn far_from_nominal(Speed { name, fit, .. }: &Speed) -> Option<String> {
+    let nominal = fit.nominal?;
+    let ev = (fit.exposure.value / nominal).log2();
+    (ev.abs() >= 1.0).then(|| {
+        let (measured, unit) = (fit.unit().show(fit.exposure.value), Unit::fit(nominal));
+        format!(
+            "warning: {name}: {measured} is {} EV off its --nominal of {}: are the speeds in the order of the traces?\n",
+            stops(ev),
+            unit.show(nominal)
+        )
+    })
 }
 
 /// Where scenes go: to the file of one, or into a folder, where each is called as its trace is.

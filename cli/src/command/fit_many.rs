@@ -7,6 +7,7 @@ use shutter_fit::{Fit, From, Measured};
 use crate::speeds::{columns, printable};
 
 /// A trace with what came of it.
+#[derive(Clone)]
 pub struct Speed {
     pub name: String,
     pub fit: Fit,

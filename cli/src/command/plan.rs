@@ -68,7 +68,10 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         paths => paths.iter().map(|path| read(args, path)).collect::<Result<Vec<_>, String>>()?,
     };
     // A report has them itself.
-    let mut told = String::new();
+    let mut told = match (scenes.is_empty(), form) {
+        (true, Some(_)) => "warning: no scene is named, so this is the example, soft\n".into(),
+        _ => String::new(),
+    };
     for (name, plan) in plans.iter().filter(|_| form.is_some() || plans.len() > 1) {
         let doubts = Facts::new(plan).doubts;
         told.extend(doubts.iter().map(|doubt| format!("warning: {name}: {}\n", doubt.text)));

@@ -107,7 +107,7 @@ fn a_file_of_something_else_needs_force() {
     // What it wrote is replaced while nobody has changed it: by its mark, or by the same bytes where it has none.
     for form in ["rust", "c", "csv", "json"] {
         let (file, line) = (format!("made.{form}"), format!("plan --emit {form} --to made.{form}"));
-        let wrote = format!("wrote {file}\n");
+        let wrote = format!("warning: no scene is named, so this is the example, soft\nwrote {file}\n");
         for _ in 0..2 {
             assert_eq!(folder.exec(&line).well().err, wrote);
         }
@@ -214,7 +214,7 @@ fn devices_and_pipes_are_written_to() {
     json.prints(&["\"trace\": \"standard input\""]);
     // A reader who leaves is no error.
     let line = "{ $shutter plan --emit json; echo $? >&2; } | head -c 1";
-    assert_eq!(folder.shell(line), Run { code: Some(0), out: "{".into(), err: "0\n".into() });
+    assert_eq!(folder.shell(line), Run { code: Some(0), out: "{".into(), err: "warning: no scene is named, so this is the example, soft\n0\n".into() });
 }
 
 /// A file whose writing fails at any block leaves the old ones and no other: here a limit is in place of a full disk.
