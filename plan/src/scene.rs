@@ -101,8 +101,7 @@ impl Scene {
     /// What is no TOML, and keys that are unknown or have the wrong type.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let mut scene: Self = toml::from_str(text).map_err(|error| told(text, &error))?;
-        let has_sum = scene.shutter.measured.as_ref().is_some_and(|it| it.checksum.is_some());
-        scene.is_edited = has_sum && !Written::find(text).is_some_and(|it| it.is_intact);
+        scene.is_edited = scene.shutter.measured.is_some() && !Written::find(text).is_some_and(|it| it.is_intact);
         Ok(scene)
     }
 

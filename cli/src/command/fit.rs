@@ -394,6 +394,17 @@ fn write(
         let unit = old.as_ref().map(|old| old.scene.shutter.unit());
         let (shutter, zero) = fitted::shutter(fit, name, args.zero, unit)
             .map_err(|refusal| format!("{name}: {}", refusal.with_option()))?;
+        if let Some(old) = old.as_ref().map(|old| &old.scene.shutter) {
+            for (key, option, was, is) in
+                [("nominal", "--nominal", old.nominal, shutter.nominal), ("delay", "--sync", old.delay, shutter.delay)]
+            {
+                if let (Some(was), None, Some(file)) = (was, is, files.get(i)) {
+                    let (file, unit) = (file.display(), old.unit().name());
+                    said.told +=
+                        &format!("warning: {file}: its {key} of {was} {unit} is gone: this fit has no {option}\n");
+                }
+            }
+        }
         let text = match old {
             Some(old) => old.with(&shutter.text()),
             None => shutter.text() + &fitted::flashes(&shutter, fit.triggers.len()),
