@@ -3,7 +3,7 @@
 use std::iter::once;
 
 /// What parts a line's fields, and is the decimal mark a comma?
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Form {
     pub delimiter: char,
     pub comma: bool,

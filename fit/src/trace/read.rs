@@ -9,8 +9,8 @@ use super::asked::Options;
 use super::bytes::decode;
 use super::layout::{Layout, Time, sound, time_of};
 use super::numbers::{counted_on, short_of};
-use super::reading::{Recording, Samples, Told, shown};
-use super::select::light_among;
+use super::reading::{Reading, Recording, Samples, Told};
+use super::select::recording;
 use super::table::Table;
 use super::times::{Sample, lists_changes, ordered, staying};
 use super::told::{Refusal, Warning};
@@ -48,20 +48,8 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     })?;
     // It was read last.
     let sync = layout.sync.and_then(|_| read.pop()).transpose()?;
-    let (signal, samples) = match <[_; 1]>::try_from(read) {
-        Ok([only]) => (layout.signals[0], only?),
-        Err(all) => {
-            let all = layout.signals.iter().copied().zip(all).collect();
-            light_among(all, |k| shown(&(k + 1, table.name(k))), time, &mut warnings)?
-        }
-    };
-    warnings.extend(samples.warnings);
-    Warning::add(&mut warnings, sync.iter().flat_map(|sync| sync.warnings.clone()));
-    let (trace, timing) = (samples.trace, samples.timing);
-    let mut reading = layout.reading(&table, signal);
-    reading.window = [options.from, options.to];
-    reading.segments = timing.segments.len();
-    Ok(Recording { trace, timing, sync: sync.map(|sync| sync.trace), reading, warnings })
+    let reading = |signal| Reading { window: [options.from, options.to], ..layout.reading(&table, signal) };
+    recording(layout.signals.iter().copied().zip(read).collect(), sync, reading, warnings)
 }
 
 /// The samples of each signal, and of the sync, of rows as they are `taken`. Each line is read once, since there may be

@@ -84,10 +84,14 @@ pub struct Samples {
     pub warnings: Vec<Warning>,
 }
 
-/// A column as it is told: `column 2, "CH1"`.
-pub fn shown((number, name): &Named) -> String {
+fn told((number, name): &Named, of: &str) -> String {
     let name = name.as_ref().map_or(String::new(), |name| format!(", \"{name}\""));
-    format!("column {number}{name}")
+    format!("column {number}{of}{name}")
+}
+
+/// A column as it is told: `column 2, "CH1"`.
+pub fn shown(named: &Named) -> String {
+    told(named, "")
 }
 
 impl Reading {
@@ -97,9 +101,8 @@ impl Reading {
     }
 
     /// A column, and its place among all.
-    pub fn among(&self, (number, name): &Named) -> String {
-        let name = name.as_ref().map_or(String::new(), |name| format!(", \"{name}\""));
-        format!("column {number} of {}{name}", self.columns)
+    pub fn among(&self, named: &Named) -> String {
+        told(named, &format!(" of {}", self.columns))
     }
 
     /// Are rows counted, and nothing tells from when?

@@ -1,7 +1,7 @@
 //! Of several columns, the one that holds a pulse of light.
 
 use super::pulse::{Light, pulses};
-use super::reading::Samples;
+use super::reading::{Reading, Recording, Samples, shown};
 use super::samples::{Trace, range};
 use super::told::{Refusal, Warning};
 
@@ -43,26 +43,32 @@ fn has_ramps(trace: &Trace, noise: f64) -> bool {
     trace.values.iter().filter(|v| is_between(v)).count() > edges
 }
 
-/// The column that holds a pulse of light, by its place, and its samples; of several, the first. The others are told,
-/// as `name` has them, with the columns that choose them.
-pub fn light_among(
+/// The recording of the column that holds a pulse of light; of several, the first, and the others are told, with the
+/// columns that choose them.
+pub fn recording(
     mut all: Vec<(usize, Result<Samples, Refusal>)>,
-    name: impl Fn(usize) -> String,
-    time: Option<usize>,
-    warnings: &mut Vec<Warning>,
-) -> Result<(usize, Samples), Refusal> {
-    let held: Vec<Holds> = all.iter().map(|(_, samples)| holds(samples)).collect();
+    sync: Option<Samples>,
+    reading: impl Fn(usize) -> Reading,
+    mut warnings: Vec<Warning>,
+) -> Result<Recording, Refusal> {
+    let only = all.len() == 1;
+    let held: Vec<Holds> = all.iter().map(|(_, samples)| if only { Holds::Light } else { holds(samples) }).collect();
     let best = held.iter().copied().max().unwrap_or(Holds::NoNumbers);
     let taken = held.iter().position(|held| *held == best).unwrap_or(0);
-    let is_rival = |k: &usize| *k != taken && held[*k] >= Holds::Faint;
-    if let Some(other) = (0..all.len()).find(is_rival) {
-        let choice = time.map_or(String::new(), |time| format!("{},", time + 1));
+    if let Some(other) = (0..all.len()).find(|k| *k != taken && held[*k] >= Holds::Faint) {
+        let [taken, other] = [taken, other].map(|k| reading(all[k].0));
+        let choice = other.time.as_ref().map_or(String::new(), |(time, _)| format!("{time},"));
         warnings.push(Warning::SecondSignal {
-            taken: name(all[taken].0),
-            other: name(all[other].0),
-            columns: format!("{choice}{}", all[other].0 + 1),
+            taken: shown(&taken.signal),
+            other: shown(&other.signal),
+            columns: format!("{choice}{}", other.signal.0),
         });
     }
     let (column, samples) = all.swap_remove(taken);
-    samples.map(|samples| (column, samples))
+    let Samples { trace, timing, warnings: doubts } = samples?;
+    warnings.extend(doubts);
+    Warning::add(&mut warnings, sync.iter().flat_map(|sync| sync.warnings.clone()));
+    let mut reading = reading(column);
+    reading.segments = timing.segments.len();
+    Ok(Recording { trace, timing, sync: sync.map(|sync| sync.trace), reading, warnings })
 }

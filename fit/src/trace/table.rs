@@ -62,6 +62,7 @@ fn form(text: &str, total: usize) -> Result<Form, Refusal> {
 type Above<'a> = (&'a str, Vec<String>);
 
 /// The file as rows of fields, and what stands above them.
+#[derive(Default)]
 pub struct Table<'a> {
     text: &'a str,
     pub form: Form,
@@ -82,25 +83,12 @@ pub struct Table<'a> {
 impl<'a> Table<'a> {
     pub fn new(text: &'a str) -> Result<Self, Refusal> {
         if let Some((i, line)) = text.lines().enumerate().find(|(_, line)| line.len() > LONGEST_LINE) {
-            let json = if line.starts_with(['{', '[']) { ", as JSON is" } else { "" };
-            let reason =
-                format!("line {} is {} bytes long{json}; each sample needs a line of its own", i + 1, line.len());
-            return Err(refused(reason));
+            let long = format!("line {} is {} bytes long", i + 1, line.len());
+            return Err(refused(format!("{long}; each sample needs a line of its own")));
         }
         let total = filled_lines(text).count();
         let form = form(text, total)?;
-        let (above, width) = (Vec::new(), 0);
-        let mut table = Self {
-            text,
-            form,
-            above,
-            width,
-            names: Default::default(),
-            columns: Vec::new(),
-            clocks: Vec::new(),
-            first: Vec::new(),
-            spread: Vec::new(),
-        };
+        let mut table = Self { text, form, ..Self::default() };
         let filled = table.judge(total);
         let lines: Vec<&str> = filled_lines(text).take(LONGEST_HEADER).collect();
         let first = lines.iter().position(|line| table.is_row(line, &filled));

@@ -3,7 +3,7 @@
 use super::asked::{Column, Options};
 use super::reading::{Clock, Reading, Recording, Samples, Told};
 use super::samples::Trace;
-use super::select::light_among;
+use super::select::recording;
 use super::times::Timing;
 use super::told::{Refusal, Warning};
 
@@ -78,15 +78,14 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     }
     let rate = options.rate.unwrap_or(rate);
     let there = values.len() / channels;
-    let channel = |k: usize| {
+    let channel = |k: usize| -> Samples {
         let values = values.iter().skip(k).step_by(channels);
         let is_sound = |(_, v): &(usize, &f64)| v.is_finite();
         let timed = values.enumerate().filter(is_sound).map(|(i, v)| (i as f64 / rate, *v));
         let is_asked =
             |(t, _): &(f64, f64)| options.from.is_none_or(|from| *t >= from) && options.to.is_none_or(|to| *t <= to);
         let (times, values) = timed.filter(is_asked).unzip();
-        let timing = Timing::default();
-        Ok(Samples { trace: Trace { times, values }, timing, warnings: Vec::new() })
+        Samples { trace: Trace { times, values }, timing: Timing::default(), warnings: Vec::new() }
     };
     let place = |column: &Column| match column {
         Column::Number(number) if (1..=channels).contains(number) => Ok(number - 1),
@@ -106,17 +105,14 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
         return Err(no_delay("its channel is the signal's; record the sync on one of its own".into()));
     }
     let named = |k: usize| (k + 1, None);
-    let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
-    let clock = Clock::Rate(rate);
-    let (columns, signal, of_sync) = (channels, named(0), sync.map(named));
-    let mut reading = Reading {
-        columns,
+    let reading = |signal| Reading {
+        columns: channels,
         time: None,
-        signal,
-        sync: of_sync,
-        clock,
+        signal: named(signal),
+        sync: sync.map(named),
+        clock: Clock::Rate(rate),
         first: Some(0.0),
-        told,
+        told: if options.rate.is_some() { Told::Asked } else { Told::Format },
         window: [options.from, options.to],
         segments: 0,
     };
@@ -124,11 +120,6 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     if let Some(announced) = announced.filter(|announced| there < *announced) {
         warnings.push(Warning::CutOff { samples: there, announced });
     }
-    let name = |k: usize| format!("channel {}", k + 1);
-    let all = asked.into_iter().map(|k| (k, channel(k))).collect();
-    let (signal, samples) = light_among(all, name, None, &mut warnings)?;
-    reading.signal = named(signal);
-    let sync: Result<_, Refusal> = sync.map(channel).transpose();
-    let sync = sync?.map(|sync: Samples| sync.trace);
-    Ok(Recording { trace: samples.trace, timing: samples.timing, sync, reading, warnings })
+    let all = asked.into_iter().map(|k| (k, Ok(channel(k)))).collect();
+    recording(all, sync.map(channel), reading, warnings)
 }

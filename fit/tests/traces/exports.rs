@@ -81,7 +81,6 @@ const EXPORTS: &[Export] = &[
     ("Rigol MSO5074", "X,CH1,Start,Increment,\nSequence,Volt,-6.000ms,10.000us,\n", "{i},{e},,",
         "2 the first at -6 ms"),
     ("Rigol DS1052E", "X,CH1,\nSecond,Volt,\n", "{T},{e},", "2 in s, by its name"),
-    ("Rigol MSO8204", "Time(s),CH1(V)\n", "{T},{e}", "2 in s, by its name"),
     ("Rigol DS2072A", "Time,CH1\n", "{T},{e}", "2 in s, assumed|unit_assumed"),
     ("Rigol DHO804", "CH1V,t0 =-6.000000e-03, tInc = 1.000000e-05,\n", "{e},,", "!'CH1V,t0 =-6"),
     ("Siglent SDS1104X-E", "Record Length,Analog:1200\nSample Interval,Analog:0.0000100\nVertical Units,CH1:V\n\
@@ -110,7 +109,6 @@ const EXPORTS: &[Export] = &[
         #1,18-Mar-2024 10:00:00,0\nTime,Ampl\n", "{T},{v}", "2 column 1, \"Time\" in s, assumed|unit_assumed"),
     ("R&S RTB2004", "in s,CH1 in V\n", "{T},{e}", "2 in s, by its name"),
     ("R&S RTM2054", "TIME,CH1\ns,V\n", "{T},{e}", "2 in s, by its name"),
-    ("R&S RTH1004", "Time (s);C1 (V)\n", "{,-t};{,v}", "2 in s, by its name"),
     ("Yokogawa, two", "\"TraceName\",\"CH1\",\"CH2\"\n\"BlockSize\",1200,1200\n\"HResolution\",1.0E-05,1.0E-05\n\
         \"HOffset\",-6.0E-03,-6.0E-03\n\"HUnit\",\"s\",\"s\"\n\n", ",{g},{e}", "3 by 'HResolution|second_signal"),
     ("Yokogawa in ms", "\"HResolution\",1.0E-02\n\"HUnit\",\"ms\"\n\n", ",{e}", "!'HUnit,ms'"),
@@ -158,7 +156,6 @@ const EXPORTS: &[Export] = &[
     ("a date in each row", "Date;Time;ms;V\n", "01.05.2024;10:00:00;{,ms};{,v}", "4 in ms, by its name"),
     ("Teensy, bare", "", "{us} {adc}", "!counts without a unit"),
     ("STM32", "ticks,adc\n", "{us},{adc}", "!\"ticks\""),
-    ("Octave", "# Created by Octave 8.4\n# name: A\n# rows: 1200\n", " {T} {e}", "2 in s, assumed|unit_assumed"),
     ("numpy, with blanks", "# time (ms) light (V)\n", "{ms} {e}", "2 in ms, by its name"),
     ("numpy, with commas", "# time (ms),light (V)\n", "{ms} {e}", "2 in ms, by its name"),
     ("pandas", ",time_s,light\n", "{i},{t},{v}", "3 column 2, \"time_s\" in s, by its name"),
@@ -174,7 +171,6 @@ const EXPORTS: &[Export] = &[
     ("a stage", "Position/mm V\n", "{us} {v}", "!\"Position/mm\" counts"),
     ("an axis's unit alone", "X Unit,mm\nX,CH1\n", "{ms},{v}", "!'X Unit,mm'"),
     ("a sweep", "Volt,Ampere\n", "{ms},{v}", "!'Volt'"),
-    ("a lens", "mm,mm\n", "{ms},{v}", "!'mm'"),
     // A name with more than a unit, settings that are no names, other numbers that are no rate.
     ("tenths", "Time (tenths of ms),v\n", "{us},{v}", "!'Time (tenths of ms)'"),
     ("a scale in the name", "Time (s/div),v\n", "{us},{v}", "!'Time (s/div)'"),
