@@ -110,8 +110,10 @@ fn flicker(fit: &Fit) -> Option<Warning> {
 }
 
 fn coupled(fit: &Fit) -> Option<Warning> {
-    let [Some(first), second] = fit.best().signal.coupling?.rates else { return None };
-    Some(Warning::Coupled { seconds: 1.0 / first, second: second.map(|rate| 1.0 / rate) })
+    // One that takes for ever is none.
+    let of = |rate: Option<f64>| rate.map(|rate| 1.0 / rate).filter(|seconds| seconds.is_finite());
+    let [first, second] = fit.best().signal.coupling?.rates.map(of);
+    Some(Warning::Coupled { seconds: first.or(second)?, second: first.and(second) })
 }
 
 /// A signal that still falls at the end of the trace, where it did not in the dark before.
