@@ -32,8 +32,8 @@
 //!
 //! # Units
 //!
-//! For triggers and pulses, a curve's times are in seconds. If you only ask for fractions, times and openness, any unit
-//! of time will do: all times are in the constructor's.
+//! For triggers and pulses, a curve's times are in seconds. If you need neither, any unit of time will do. Answers are in
+//! the unit that you gave to the constructor.
 //!
 //! # Which call
 //!

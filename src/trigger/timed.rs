@@ -25,10 +25,10 @@ use crate::trigger::ticks::{Hz, MOST_TRIGGERS, TickScale, Ticks};
 ///
 /// # Checks
 ///
-/// A frame keeps [`min_gap`](Self::min_gap) and [`min_pulse`](Self::min_pulse), both 1 tick at first. So neither two
-/// triggers on one tick nor an empty pulse pass unnoticed; both often come of a wrong rate. A frame has at most 2²²
-/// triggers or pulses. Each call that makes one returns a [`ScheduleError`] where a frame breaks a rule; the text names
-/// the trigger or pulse, and what to change.
+/// A frame keeps [`min_gap`](Self::min_gap) and [`min_pulse`](Self::min_pulse). Both are 1 tick unless you set them:
+/// two triggers on one tick, or an empty pulse, often mean that the rate is wrong. A frame has at most 2²² triggers or
+/// pulses. A frame that breaks a rule is refused with a [`ScheduleError`], whose text names the trigger or pulse and
+/// what to change.
 ///
 /// ```
 /// use shutter_curve::{Hz, ScheduleError, ShutterCurve, TimedCurve, expect};
@@ -93,8 +93,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// The ticks of a frame of `n` triggers, as an iterator.
     ///
-    /// The call takes a short time if the exposure is long enough for any `n` triggers to keep the gap. Otherwise it
-    /// computes the whole frame to check it, as [`ticks_into`](Self::ticks_into) does.
+    /// The exposure alone often shows that `n` triggers keep the gap, and the call is short. Otherwise it computes the
+    /// whole frame to check it, as [`ticks_into`](Self::ticks_into) does.
     ///
     /// ```
     /// use shutter_curve::{Hz, ShutterCurve, expect};
@@ -164,8 +164,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     ///
     /// On a coarse timer, a smaller number may fail, and a larger one may keep the gap.
     ///
-    /// The call takes a short time if the exposure is long enough for any `wanted` triggers to keep the gap. Otherwise
-    /// it computes frames until it finds the number, 6 in the mean and up to 20.
+    /// The exposure alone often shows that `wanted` triggers keep the gap, and the call is short. Otherwise it computes
+    /// frames until it finds the number: 6 on average, and up to 19, were seen.
     #[must_use]
     pub const fn max_triggers(&self, wanted: u32) -> u32 {
         let wanted = if wanted < MOST_TRIGGERS { wanted } else { MOST_TRIGGERS };
@@ -199,7 +199,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// A frame of `n` pulses, as an iterator. With a duty of 1 pulses touch, which needs a
     /// [`min_gap`](Self::min_gap) of 0.
     ///
-    /// The call takes a short time if the exposure is long enough for any `n` pulses of this duty. Otherwise it
+    /// The exposure alone often shows that `n` pulses are long and far enough apart, and the call is short. Otherwise it
     /// computes the whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
     ///
     /// ```
