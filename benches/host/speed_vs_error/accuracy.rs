@@ -5,6 +5,7 @@ use crate::support::aimed::{FAMILIES, aimed, aimed_us};
 use crate::support::cases::{CASES, Case};
 use crate::support::curves::{Kind, Rng, hard_us, named, random_typical};
 use crate::support::oracle::{Curve, Exact, rounding_cell};
+use crate::support::promise::LEAST_FRACTION;
 
 const SEED: u64 = 4;
 
@@ -50,7 +51,7 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
         // Uniform, and towards both ends on a scale of octaves: where tables and absolute tolerances fail.
         let us = (0..samples).map(|i| {
             let u = rng.unit();
-            let tail = (u * 2f64.powf(-20.0 * rng.unit())) as f32;
+            let tail = ((u * 2f64.powf(-20.0 * rng.unit())) as f32).max(LEAST_FRACTION);
             if is_uniform(i) {
                 u as f32
             } else if i % 4 == 0 {
@@ -104,7 +105,8 @@ pub fn of_hard_curves(count: usize) -> Vec<f64> {
         let rng = &mut Rng::new(1, i as u64);
         let curve = CASES.get(i).map_or_else(|| aimed(i % FAMILIES.len(), 1, i as u64), Case::curve);
         let exact = Exact::new(&curve);
-        let us = if i < CASES.len() { hard_us(&exact, SEED, 400) } else { aimed_us(&exact, rng) };
+        let mut us = if i < CASES.len() { hard_us(&exact, SEED, 400) } else { aimed_us(&exact, rng) };
+        us.retain(|u| *u == 0.0 || *u >= LEAST_FRACTION);
         let truths: Vec<_> = us.iter().map(|u| exact.inverse_cdf(*u).hi).collect();
         let worst = METHODS.iter().map(|method| {
             let Some(inverse) = (method.build)(&curve) else { return 0.0 };

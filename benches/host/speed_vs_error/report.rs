@@ -67,8 +67,8 @@ pub fn page(measured: &Measured) -> String {
     format!(
         "# Speed against error
 
-Written by `cargo bench -- --write-docs`. Times are medians on one {arch} core, over 65 536 random `u`, so
-that no branch on `u` is predicted; on another machine trust the ratios.
+Written by `cargo bench -- --write-docs`. Times are medians on one {arch} core, over 65 536 random `u`, so that no
+branch on `u` is predicted. On another machine trust the ratios.
 
 ![Error against cost](frontier.svg)
 
@@ -81,9 +81,9 @@ equally spaced `u`. Square roots, from the nearer end, are for straight ramps al
 {table}
 
 Times are on *soft*, of square roots on *trapezoid*. Errors are the greatest on {curves} typical curves, by
-double-double arithmetic, at {samples} fractions each: half of them uniform, a quarter towards either end by octaves,
-where tables and absolute tolerances fail. A time outside the interval counts as the nearer end, NaN as the start.
-Square roots are judged on the {straight} straight ones.
+double-double arithmetic, at {samples} fractions each that a frame can have, from 2⁻²³ on: half of them uniform, a
+quarter towards either end by octaves, where tables and absolute tolerances fail. A time outside the interval counts as
+the nearer end, NaN as the start. Square roots are judged on the {straight} straight ones.
 
 - *ulp(t)*: the forward error, as in [accuracy.md](../accuracy.md)
 - *hard curves*: error as a share of the interval, beyond the rounding of the time to an `f32`, on {hard} curves that
