@@ -52,7 +52,8 @@ struct Step {
 pub fn run(core: Core, elf: &Path, input: File) -> Result<Run> {
     let bytes = std::fs::read(elf)?;
     let file = object::File::parse(&*bytes)?;
-    let mut functions = BTreeMap::new();
+    // What no symbol with a size has, as where a program starts.
+    let mut functions = BTreeMap::from([(0, (0, false))]);
     for symbol in file.symbols().filter(|s| s.kind() == SymbolKind::Text && s.size() > 0) {
         functions.insert(symbol.address() as u32 & !1, (symbol.size() as u32, symbol.name()?.contains("8the_call")));
     }
