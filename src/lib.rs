@@ -56,13 +56,14 @@
 //!
 //! The program `shutter`, in the crate's repository, fits a curve to a photodiode's record of a shutter. It writes a
 //! module for firmware with the ticks of a frame and their delay from the camera's sync. With `--curve` the module also
-//! holds the curve as a `static`, and needs this crate. You supply three facts that the record does not show: the
-//! set-up, the sync's edge and the timer's rate. The set-up is `in_path` if light passes through the measured shutter,
-//! and `emulated` if the camera's own shutter stays open.
+//! holds the curve as a `static`, and needs this crate. You supply four facts that the record does not show: the set-up,
+//! the sync's edge, the timer's rate, and what the lamp needs from one flash to the next. The set-up is `in_path` if
+//! light passes through the measured shutter, and `emulated` if the camera's own shutter stays open.
 //!
 //! ```text
 //! shutter fit trace.csv --sync 0 --out leaf.toml
-//! shutter plan leaf.toml --set-up emulated --sync-falls true --timer-hz 1MHz --emit rust --curve --to leaf.rs
+//! shutter plan leaf.toml --set-up emulated --sync-falls true --timer-hz 1MHz --min-gap 100us \
+//!     --emit rust --curve --to leaf.rs
 //! ```
 //!
 //! Add `mod leaf;` to the firmware, and pass `leaf::due` your timer's count at the sync's edge. It returns the counts
