@@ -18,7 +18,7 @@ U64 = Fraction(1, 2**53)
 # mass and of a time.
 MASS_TERMS, TIME_TERMS = 512, 14
 LEAST_AREA = Fraction(1, 20)
-MASS_SHIFT, STEEPEST, QUARTER = 9, 9, 2**18
+STEEPEST = 9
 # Of search.py: what a way is measured to, in fine units.
 WAY_OFF = 72
 

@@ -65,12 +65,10 @@ for what, number, left, right, on in (
 ):
     claim = f"the terms of a {what} since an end, without their signs, are at most {number} times the {what}"
     proven(claim, tight(number, left, right, on))
-most = max((sum(sizes(r.m)) + sum(sizes(r.from_end()))) / sum(r.m) for r in ramps)
-proven(f"those of both ends at the other end are at most {float(most)} times the ramp's share: so `mass_shift` is at "
-       f"most {MASS_SHIFT}",
-       2**MASS_SHIFT <= most < (1 - 2 * U) * 2 ** (MASS_SHIFT + 1))
+MASS_SHIFT = constant("MASS_SHIFT")
+most = max(sum(sizes(c)) / sum(r.m) for r in ramps for c in (r.m, r.from_end()))
+proven(f"those since either end are at most {float(most)} times the ramp's share: so a coefficient, and Horner's sums, "
+       f"are below 2^62 units of 2^{MASS_SHIFT}",
+       2**(MASS_SHIFT - 1) < most < 2**MASS_SHIFT - 1)
 proven(f"a mass grows at most {STEEPEST} times as fast, along the place, as on average",
        tight(STEEPEST, lambda r: slope(r.m), lambda r: [sum(r.m)], ramps))
-# So where a mass of 2^-20 is sought, the place is below 1/4 or the shift is 0.
-quarter = max((sum(sizes(r.m)) + sum(sizes(r.from_end()))) / at(r.m, Fraction(1, 4)) for r in ramps)
-proven(f"and at most 2^{log2(quarter):g} times the mass up to 1/4", quarter == QUARTER)

@@ -37,14 +37,13 @@ valid("times: for an `a` from 0 on it never falls as `a` grows", grows(WORD - 1)
 # --- A series of n coefficients by Horner's rule: n - 1 products by `times`, each less than 3 units of 2^shift low and
 # then multiplied by the place, which is below 1, once for each product that follows; the last is rounded down.
 loses = lambda n, shift, p: 2**shift * 3 * sum(p**k for k in range(1, n)) + 1
-TIME_SHIFT = stated("ramp/mod.rs", r"Series { c, shift: (\d+) }")[0]
+MASS_SHIFT, TIME_SHIFT = constant("MASS_SHIFT"), constant("WAY_SHIFT")
 WOBBLE, TIME_WOBBLE = loses(6, MASS_SHIFT, 1), loses(3, TIME_SHIFT, 1)
 proven(f"Series::at is low by less than 3 (n - 1) 2^shift times the place, and 1: a mass by {WOBBLE}, 2^"
        f"{log2(WOBBLE):.2f}; a way by {TIME_WOBBLE}",
        all(loses(n, s, p) <= 3 * (n - 1) * 2**s * p + 1 for n in (3, 6) for s in (0, 9) for p in (U, 1)),
        WOBBLE == 15 * 2**MASS_SHIFT + 1 and TIME_WOBBLE == 49)
-# Horner's sums. Those of a mass are at most its coefficients' sizes, of both ends together below 2^63: those of the
-# other end are more than what is lost. A time's differences are 2^59 at most together, each cut. An openness' sums are
+# Horner's sums. Those of a mass are at most its coefficients' sizes, below 2^62 (domain.py), and what is lost. A time's differences are 2^59 at most together, each cut. An openness' sums are
 # polynomials, c_k + c_(k+1) p + ..., of any four control values from 0 to 1.
 powers = lambda t0, t1, t2, t3: [3 * (t1 - t0), 3 * (t2 - 2 * t1 + t0), t3 - 3 * (t2 - t1) - t0]
 tails = lambda c: [c[k:] for k in range(len(c))]
@@ -53,7 +52,7 @@ tops = [tail for f in product((Fraction(0), Fraction(1)), repeat=4) for tail in 
 sums = [max(-box.least(tail), box.greatest(tail)) for tail in tops]
 proven(f"no sum of Horner's rule reaches 2^63: a time's are below 2^{log2(of_time):.2f}, an openness' at most "
        f"2^{log2(max(sums) * 2**60 + 6):.2f}",
-       2**62 - 30 > 15 and of_time < 2**63 and max(sums) * 2**60 + 6 < 2**63 < (1 + max(sums)) * 2**61)
+       of_time < 2**63 and max(sums) * 2**60 + 6 < 2**63 < (1 + max(sums)) * 2**61)
 
 # --- A search ends. The steepest a series is, in units for a place; and what is between two neighbouring places.
 LEAST_ERROR, FREE_STEPS = constant("LEAST_ERROR"), constant("FREE_STEPS")
@@ -63,7 +62,7 @@ steepest_time = max(box.greatest(box.slope(box.Extreme(corner, (0, 0, 0, 0)).t))
 ends = lambda wobble, step, error: wobble + step < 2 * error + 1
 proven(f"neighbouring places: a mass is measured with less than {float(WOBBLE + mass_step):.1f} between them, a way "
        f"with less than {float(TIME_WOBBLE + time_step):.2f}: less than twice the errors, {LEAST_ERROR} and "
-       f"{LEAST_WAY_ERROR}; with one more bit of `mass_shift` it could be more",
+       f"{LEAST_WAY_ERROR}; with one more bit of MASS_SHIFT it could be more",
        steepest_time == 3 and ends(WOBBLE, mass_step, LEAST_ERROR) and ends(TIME_WOBBLE, time_step, LEAST_WAY_ERROR),
        not ends(loses(6, MASS_SHIFT + 1, 1), mass_step, LEAST_ERROR))
 bracket, halved = 2**64 - 1, 0
@@ -80,18 +79,14 @@ ERROR_BITS, GRID = stated("exposure.rs", r"\(a >> (\d+)\) \+ LEAST_ERROR")[0], 2
 s, up = BitVec("s", 64), BitVec("up", 64)
 cut = ((s << up) + 1) >> 1
 is_multiple = lambda least: Implies(And(UGE(s, 1 << 23), ULT(s, 1 << 24), up >= least, up <= 24), cut << 1 == s << up)
-require(HALF_BITS - 1 + GRID_BITS == 62 and -24 - 23 + HALF_BITS == 1, "a number from 2^-24 on has up >= 1")
-valid(f"each f32 from 2^-24 to 1/2 is a multiple of the grid, 2^{GRID_BITS - 62}", is_multiple(1), is_multiple(0))
+require(HALF_BITS - 1 + GRID_BITS == 62 and -23 - 23 + HALF_BITS == 1, "a number from 2^-23 on has up >= 1")
+valid(f"each f32 from 2^-23 to 1/2 is a multiple of the grid, 2^{GRID_BITS - 62}", is_multiple(1), is_multiple(0))
 
-# What an answer is off by, in these units, for a fraction of 2^e to 2^(e+1). Below 2^-20 the place is below 1/4, or the
-# shift is 0. A coefficient is cut by less than 2^shift. What joins are rounded by is within JOIN_OFF, all else within
-# FRACTION_OFF of the fraction (certificate.py).
+# What an answer is off by, in these units, for a fraction of 2^e to 2^(e+1). A coefficient is cut by less than
+# 2^MASS_SHIFT. What joins are rounded by is within JOIN_OFF, all else within FRACTION_OFF of the fraction
+# (certificate.py).
 JOIN, SHARE = constant("JOIN_OFF") * 2**62, constant("FRACTION_OFF")
-require(QUARTER * Fraction(1, 2**20) < 1, "a ramp of which 2^-20 is beyond 1/4 has the shift 0")
-# What the mass at a place is low by, and what its coefficients' cutting changes.
-low_and_cut = lambda shift, p: (loses(6, shift, p), 2**shift * sum(p**k for k in range(1, 7)))
-near, whole, unshifted = low_and_cut(MASS_SHIFT, Fraction(1, 4)), low_and_cut(MASS_SHIFT, 1), low_and_cut(0, 1)
-lost = lambda e: [max(pair) for pair in zip(near, unshifted)] if e < -20 else whole
+CUTS = 6 * 2**MASS_SHIFT
 # A way's measuring, in fine units: the series; its three differences, each cut by 7 at most; and control times, each
 # cut by less than a unit, which is two fine ones at most, or they are exact. A fine unit's mass: the openness is at
 # most the ramp's greatest control value, of which the area is LEAST_AREA, and an interval has 2^61 fine units.
@@ -104,9 +99,9 @@ def answer(e, grid=GRID):
     """Of two neighbouring answers: how far the true masses of their places are apart; and what an answer is off by
     beside the rounding to the grid."""
     most = Fraction(2) ** (62 + e + 1)
-    error, (wobble, cuts) = most / 2**ERROR_BITS + LEAST_ERROR, lost(e)
+    error = most / 2**ERROR_BITS + LEAST_ERROR
     # Of two series, from either end of a ramp, each is low, and cut in its own way.
-    off = error + wobble + cuts + SHARE * most
+    off = error + WOBBLE + CUTS + SHARE * most
     return max(grid, most / 2**24) - 2 * off, off + JOIN + WAY * PER_FINE
 
 
@@ -114,7 +109,7 @@ BINADES = range(-62, -1)
 apart = min(answer(e)[0] for e in BINADES)
 proven(f"two searches for neighbouring fractions find places whose true masses are 2^{log2(apart):.2f} units apart or "
        f"more: so their ways are {float(apart / PER_FINE):.0f} fine units apart, measured to {WAY}; with a grid of "
-       "2^-48 not so",
+       "2^-47 not so",
        apart / PER_FINE > WAY and not min(answer(e, GRID / 2)[0] for e in BINADES) / PER_FINE > WAY)
 start, end = Ints("start end")
 way, rest = Reals("way rest")
@@ -137,11 +132,11 @@ OPEN_WAY = 22
 proven(f"openness times the way since an end is at most {OPEN_WAY} times the mass",
        box.tight(OPEN_WAY, lambda r: box.times(r.t, r.f), lambda r: r.m, box.extremes()))
 crossed = lambda e: max(Fraction(OPEN_WAY, 2**36) * 2 ** (62 + e + 1), 2 * PER_FINE)
-backward = lambda e: answer(e)[1] + crossed(e) + (GRID / 2 if e < -24 else 0)
+backward = lambda e: answer(e)[1] + crossed(e) + (GRID / 2 if e < -23 else 0)
 ulp = lambda e: Fraction(2) ** (62 + e - 23)
 above, below = max(backward(e) / ulp(e) for e in BINADES if e >= -23), max(backward(e) for e in BINADES if e < -23)
 proven(f"inverse_cdf by a search: backward error at most {float(above):.3f} ulp of a fraction from 2^-23 on, and 2^"
-       f"{log2(below / 2**62):.2f} below: within 0.5 ulp, or 2^-47",
+       f"{log2(below / 2**62):.2f} of the exposure below: within 0.5 ulp, or 2^-46",
        above < Fraction(1, 2) and GRID / 2 < below < GRID)
 # A polynomial's exposure is within ULP_ERROR, with the unit by which its own end is cut.
 own, by_search = constant("ULP_ERROR"), max(answer(e)[1] / ulp(e) for e in BINADES if e >= -23)
@@ -151,15 +146,15 @@ proven(f"with one unit in its certificate a polynomial beside another takes {flo
        stated("octave/candidate.rs", r"HALF_TRUNCATION \+ (\d+).0 / factor") == [1])
 
 # --- The cdf. A place's way is within the error; neighbouring times are 2^-24 of themselves apart, or a unit.
-wobble, cuts = lost(-1)
+TRACE = 2**15  # the ulp of 2^-24
 back = 2 * LEAST_WAY_ERROR + WAY
-fall = wobble + cuts + back * PER_FINE
+fall = WOBBLE + CUTS + back * PER_FINE
 is_back = lambda t: 2 * (t / 2**TIME_BITS + LEAST_WAY_ERROR) + WAY - t / 2**24 > back
 proven(f"cdf: a later time's place is at most {back} fine units earlier, its mass at most 2^{log2(fall):.2f} units and "
        "2^-35 of itself less: so its f32 by one ulp of at least that of 2^-24",
        not any(is_back(Fraction(2) ** k) for k in range(63)) and 2 * SHARE <= Fraction(1, 2**35),
-       fall + 2 * SHARE * GRID * 2**24 < GRID < 4 * fall)
-moved, value = Fraction(LEAST_WAY_ERROR + WAY + 2, 2**61), (wobble + cuts + JOIN) / GRID
+       fall + 2 * SHARE * TRACE * 2**24 < TRACE < 4 * fall)
+moved, value = Fraction(LEAST_WAY_ERROR + WAY + 2, 2**61), (WOBBLE + CUTS + JOIN) / TRACE
 proven(f"cdf on a ramp: within {float(value + Fraction(1, 2)):.3f} ulp, of at least that of 2^-24, of the exact one at "
        f"a time within 1/8 ulp and 2^{log2(moved):.2f} of the interval",
        value + SHARE * 2**24 + Fraction(1, 2) < 1 and moved < Fraction(1, 2**54))

@@ -5,7 +5,7 @@
 //! measuring the part there loses far less than lies between two times, and all parts make up the whole.
 
 use crate::exposure::Exposure;
-use crate::fixed::{ONE, power_of_two, times};
+use crate::fixed::{ONE, nearest, power_of_two, times};
 use crate::fraction::Side::{self, End, Start};
 use crate::ramp::Ramp;
 
@@ -35,7 +35,7 @@ fn section(exposure: &Exposure, t: f32) -> Section<'_> {
     let (ramp, units) = (exposure.ramp(side), exposure.units());
     let time = units.of(t);
     // An eighth of the distance to the next time, or less.
-    let error = (time.abs() >> 27) + 32;
+    let error = (time.abs() >> 26) + 32;
     let (from, place) = ramp.place_of_time(time, error, units);
     Section::Ramp(side, ramp, from, place)
 }
@@ -53,14 +53,14 @@ fn openness_in_fixed(exposure: &Exposure, t: f32) -> i64 {
 /// The openness at `t`.
 #[inline]
 pub(crate) fn openness(exposure: &Exposure, t: f32) -> f32 {
-    openness_in_fixed(exposure, t) as f32 * power_of_two(-60)
+    nearest(openness_in_fixed(exposure, t)) * power_of_two(-60)
 }
 
 /// The openness at `t` over the exposure.
 #[inline]
 pub(crate) fn pdf(exposure: &Exposure, t: f32) -> f32 {
     let (significand, up) = per_area(exposure);
-    times(openness_in_fixed(exposure, t) << 2, significand) as f32 * power_of_two(-62) * power_of_two(up)
+    nearest(times(openness_in_fixed(exposure, t) << 2, significand)) * power_of_two(-62) * power_of_two(up)
 }
 
 /// The fraction of the exposure collected by `t`.
@@ -74,7 +74,7 @@ pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
             let (significand, up) = per_area(exposure);
             // way / A · 2⁶²
             let part = times(way << ((up + exposure.units().exponent + 61) & 63), significand) << 1;
-            exposure.ramp(Start).share + if part < exposure.plateau { part } else { exposure.plateau }
+            exposure.ramp(Start).share + if part < exposure.plateau() { part } else { exposure.plateau() }
         }
         Section::Ramp(side, ramp, from, place) => {
             let mass = ramp.mass_at(from, place);
@@ -82,7 +82,7 @@ pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
             if side.is_end() { ONE - ramp.share + part } else { part }
         }
     };
-    fraction as f32 / ONE as f32
+    nearest(fraction) * power_of_two(-62)
 }
 
 /// `(s, e)`: one over the area is `s / 2⁶⁴ · 2^e`.

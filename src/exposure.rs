@@ -15,11 +15,7 @@ use crate::search::LEAST_ERROR;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Exposure {
     ramps: [Ramp; 2],
-    /// The plateau's part of the exposure. All three make up [`ONE`].
-    pub(crate) plateau: i64,
-    /// `A = ∫ f dt`
-    pub(crate) area: f64,
-    /// `1 / A`
+    /// One over the area, `A = ∫ f dt`.
     pub(crate) per_area: f64,
     /// The plateau's line, in units: its time continued to `u = 0`, and its slope, the area.
     pub(crate) line_base: i64,
@@ -47,19 +43,25 @@ impl Exposure {
         }
         let near = fixed_towards_0(areas[0] / area, -62);
         let far = if plateau > 0.0 { fixed_towards_0(areas[1] / area, -62) } else { ONE - near };
-        let ramps = [Ramp::new(first, &shapes[0], area, near), Ramp::new(last, &shapes[1], area, far)];
+        let (units, per_area) = (Units::new(start, end), 1.0 / area);
+        let ramps =
+            [Ramp::new(first, &shapes[0], per_area, near, units), Ramp::new(last, &shapes[1], per_area, far, units)];
         // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. It is
         // off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes 2⁸ units or
         // more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
-        let units = Units::new(start, end);
         let line_base = units.of(open) - fixed_towards_0(areas[0], units.exponent);
         let line_slope = units.of(close) + fixed_towards_0(areas[1], units.exponent) - line_base;
-        let (plateau, time_of_word, fine) = (ONE - near - far, power_of_two(units.exponent + 32), units.fine);
-        Ok((Self { ramps, plateau, area, per_area: 1.0 / area, line_base, line_slope, time_of_word, fine }, shapes))
+        let (time_of_word, fine) = (power_of_two(units.exponent + 32), units.fine);
+        Ok((Self { ramps, per_area, line_base, line_slope, time_of_word, fine }, shapes))
     }
 
     pub(crate) const fn ramp(&self, side: Side) -> &Ramp {
         &self.ramps[side as usize]
+    }
+
+    /// The plateau's part of the exposure.
+    pub(crate) const fn plateau(&self) -> i64 {
+        ONE - self.ramps[0].share - self.ramps[1].share
     }
 
     /// The time of the curve's end at a side.
@@ -85,19 +87,19 @@ impl Exposure {
     }
 
     /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. What is collected
-    /// then differs from `a` by at most `a / 2²⁶` and 2⁻⁴⁷. Of 0, a negative number or NaN it is the end itself, though no
+    /// then differs from `a` by at most `a / 2²⁶` and 2⁻⁴⁶. Of 0, a negative number or NaN it is the end itself, though no
     /// light may fall there.
     #[inline(always)]
     pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {
         let (side, a) = (fraction.side, fraction.get());
-        // To the nearest multiple of 2⁻⁴⁷, as every `f32` from 2⁻²⁴ on is one.
-        let a = if a > 0.0 { ((fixed_down(a, -48) + 1) >> 1) << 15 } else { 0 };
+        // To the nearest multiple of 2⁻⁴⁶, as every `f32` from 2⁻²³ on is one.
+        let a = if a > 0.0 { ((fixed_down(a, -47) + 1) >> 1) << 16 } else { 0 };
         // These keep it in order with the next one (proofs/search.py).
         let error = (a >> 27) + LEAST_ERROR;
         let near = self.ramp(side).share;
         let (ramp, part) = if a < near {
             (side, a)
-        } else if a - near < self.plateau {
+        } else if a - near < self.plateau() {
             let [base, until] = [self.in_units(self.join_time(side)), self.in_units(self.join_time(side.other()))];
             // In units the area may have 62 bits, and so may the part: twice both give the time.
             let way = times((a - near) << 1, (self.line_slope as u64) << 1);
@@ -105,7 +107,7 @@ impl Exposure {
             let way = if way < length { way } else { length };
             return (if side.is_end() { base - way } else { base + way }, 0);
         } else {
-            (side.other(), a - near - self.plateau)
+            (side.other(), a - near - self.plateau())
         };
         // One address, or the search keeps the curve's and an index on the stack.
         core::hint::black_box(self.ramp(ramp)).time_of_part(side, part, error, self.units())
@@ -115,6 +117,6 @@ impl Exposure {
     #[inline(never)]
     pub(crate) const fn join_fractions(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share;
-        [near as f64 / ONE as f64, (near + self.plateau) as f64 / ONE as f64]
+        [near as f64 / ONE as f64, (near + self.plateau()) as f64 / ONE as f64]
     }
 }

@@ -86,10 +86,21 @@ impl Units {
 /// `x / 2^e`, which has to be below 2⁶³, rounded down; `e` is at least -125, so a subnormal `x` is less than one.
 // proofs/words.py: fixed_down
 pub(crate) const fn fixed_down(x: f32, e: i32) -> i64 {
-    let significand = ((x.to_bits() & 0x7F_FFFF | 1 << 23) as i64) << 39;
+    let (significand, down) = scaled(x, e);
+    (if x < 0.0 { -significand } else { significand }) >> down
+}
+
+/// The same of an `|x|`.
+pub(crate) const fn magnitude(x: f32, e: i32) -> i64 {
+    let (significand, down) = scaled(x, e);
+    significand >> down
+}
+
+/// `(s, down)`: `|x| / 2^e` is about `s / 2^down`; down by 63 or more it is 63, and less than one.
+#[inline(always)]
+const fn scaled(x: f32, e: i32) -> (i64, u32) {
     let down = 62 + e - exponent(x);
-    // Down by 63 or more: -1 or 0.
-    (if x < 0.0 { -significand } else { significand }) >> (if down < 63 { down & 63 } else { 63 })
+    (((x.to_bits() & 0x7F_FFFF | 1 << 23) as i64) << 39, if down < 63 { down as u32 & 63 } else { 63 })
 }
 
 /// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN.
@@ -125,6 +136,26 @@ pub(crate) const fn floor_bits(x: f64) -> u32 {
 #[inline(always)]
 pub(crate) const fn single(x: i64) -> f32 {
     (x >> 32) as i32 as f32 * WORD + x as u32 as f32
+}
+
+/// The upper word of `x`, which rounds to the same `f32` as both words: a small processor converts 32 bits, not 64. None
+/// if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it
+/// is 0: the *sticky bit*.
+// proofs/words.py
+#[inline(always)]
+pub(crate) fn upper_word(x: i64) -> Option<i32> {
+    let high = (x >> 32) as i32;
+    let has_enough = high.wrapping_add(1 << 25) as u32 >= 1 << 26;
+    has_enough.then_some(high | (x as u32 != 0) as i32)
+}
+
+/// `x` rounded once to an `f32`.
+#[inline(always)]
+pub(crate) fn nearest(x: i64) -> f32 {
+    match upper_word(x) {
+        Some(high) => high as f32 * WORD,
+        None => x as f32,
+    }
 }
 
 /// `2^n`, a normal number.

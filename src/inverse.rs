@@ -21,7 +21,7 @@
 
 use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
-use crate::fixed::{FINE, floor_bits};
+use crate::fixed::{FINE, floor_bits, upper_word};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
 use crate::octave::{self, Octave, build};
@@ -278,15 +278,4 @@ const fn line_bits([near, far]: [f64; 2]) -> [u32; 2] {
 const fn in_line_units(bits: u32) -> u32 {
     let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
     (bits << 8 | 1 << 31) >> (shift & 31)
-}
-
-/// The upper word of a time, which rounds to the same `f32` as both words: a small processor converts 32 bits, not 64.
-/// None if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it
-/// is 0: the *sticky bit*.
-// proofs/words.py
-#[inline(always)]
-fn upper_word(time: i64) -> Option<i32> {
-    let high = (time >> 32) as i32;
-    let has_enough = high.wrapping_add(1 << 25) as u32 >= 1 << 26;
-    has_enough.then_some(high | (time as u32 != 0) as i32)
 }

@@ -72,7 +72,7 @@
 //! # Accuracy
 //!
 //! On every curve, [`inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded to `f32`. (For
-//! `u` below 2⁻²³ the fraction is within 2⁻⁴⁷.) On typical curves, the result is within 0.69 ulp of the exact time of
+//! `u` below 2⁻²³ the fraction is within 2⁻⁴⁶.) On typical curves, the result is within 0.69 ulp of the exact time of
 //! `u`. Times and ticks never decrease as `u` grows. The page [`accuracy`] lists all promises and the evidence for them.
 //!
 //! Every machine with IEEE arithmetic gives the same bits.

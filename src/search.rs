@@ -10,9 +10,9 @@ use crate::fixed::{WORD, power_of_two, single, times, times_up};
 /// After so many steps each further one halves a bracket. Few searches take as many.
 const FREE_STEPS: u32 = 16;
 /// After a step of more than this share of the place, the next one needs no measuring.
-const FAR: f32 = 0.25;
+const FAR: f32 = 0.1;
 /// The most steps of a search. Each step evaluates a ramp's integral once.
-pub const MAX_EVALUATIONS: u32 = FREE_STEPS + 65;
+pub const MAX_EVALUATIONS: u32 = FREE_STEPS + 63;
 /// Within this error, a search for a mass always ends: between neighbouring places the mass grows by less than twice
 /// as much, less what [`Series::at`] is low by (proofs/search.py).
 pub(crate) const LEAST_ERROR: i64 = 1 << 12;

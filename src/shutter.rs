@@ -274,20 +274,20 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn exposure(&self) -> f32 {
-        self.inverse.exposure.area as f32
+        (1.0 / self.inverse.exposure.per_area) as f32
     }
 
     /// The factor that turns openness into a probability density: 1 divided by the [`exposure`](Self::exposure).
     #[must_use]
     pub const fn normalization(&self) -> f32 {
-        (1.0 / self.inverse.exposure.area) as f32
+        self.inverse.exposure.per_area as f32
     }
 
     /// The shutter's efficiency, at most 1: the [`exposure`](Self::exposure) divided by the time from `open_start` to
     /// `close_end`.
     #[must_use]
     pub const fn efficiency(&self) -> f32 {
-        (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
+        (1.0 / (self.inverse.exposure.per_area * (self.close_end() as f64 - self.open_start() as f64))) as f32
     }
 
     /// A number of triggers up to which no frame needs a search. Computing each trigger then takes a short, bounded

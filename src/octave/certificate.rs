@@ -112,7 +112,7 @@ impl PerStep {
         let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
         // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
         let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
-        let backward = step / exposure.area / (ULP_ERROR * ulp - fraction_off) as f64;
+        let backward = step * exposure.per_area / (ULP_ERROR * ulp - fraction_off) as f64;
         let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, backward);
         let [t0, t1, t2, t3, ..] = singles(time_steps, 0.0, 1.0);
         // The least size is that of an end.

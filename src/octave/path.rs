@@ -35,7 +35,7 @@ impl View<'_> {
         let [t1, t2, t3] = shape.time_powers();
         let [u1, u2, u3, u4, u5, u6] = shape.exposure_powers();
         let mut fraction = [0.0, u1, u2, u3, u4, u5, u6];
-        scale(&mut fraction, 1.0 / exposure.area, 1.0);
+        scale(&mut fraction, exposure.per_area, 1.0);
         fraction[0] = u0;
         Path { openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
     }

@@ -129,14 +129,12 @@ fn conversions_to_whole_units() {
 /// is too small for it, at one of two neighbouring places.
 #[test]
 fn series_of_masses_and_their_search() {
-    let (mut rng, mut most, mut all, mut bisected, mut shifts) = (Rng::new(94, 0), 0, [0; 2], 0, [0; 10]);
+    let (mut rng, mut most, mut all, mut bisected) = (Rng::new(94, 0), 0, [0; 2], 0);
     for inverse in inverses() {
         for ramp in Side::BOTH.map(|side| inverse.exposure.ramp(side)).into_iter().filter(|ramp| ramp.share > 0) {
             let series = Side::BOTH.map(|side| ramp.mass_since(side));
-            let size: u128 = series.iter().flat_map(|series| series.c).map(|c| c.unsigned_abs() as u128).sum();
-            assert!(size < 1 << 63 && (size >= 1 << 61 || series[0].shift == 0), "{ramp:?}");
-            shifts[series[0].shift as usize] += 1;
             for series in &series {
+                assert!(series.c.iter().map(|c| c.unsigned_abs()).sum::<u64>() < 1 << 62, "{ramp:?}");
                 for k in 0..60 {
                     let p = if k == 0 { u64::MAX } else { rng.bits() >> (k % 16) };
                     judge_value(series, p);
@@ -154,8 +152,8 @@ fn series_of_masses_and_their_search() {
         }
     }
     let mean = f64::from(all[0]) / f64::from(all[1]);
-    std::println!("evaluations: {mean}, at most {most}; bisected to the end: {bisected}; ramps by shift: {shifts:?}");
-    assert!(mean < 2.5 && most <= 12 && bisected > 100 && shifts[9] > 0);
+    std::println!("evaluations: {mean}, at most {most}; bisected to the end: {bisected}");
+    assert!(mean < 2.5 && most <= 12 && bisected > 100);
 }
 
 fn judge_value(series: &Series<6>, p: u64) {
@@ -262,14 +260,14 @@ fn a_search_rounds_its_fraction_to_the_grid() {
     let mut rng = Rng::new(97, 0);
     for _ in 0..10_000 {
         let a = fraction(&mut rng) * power_of_two(-(rng.below(30) as i32));
-        let grid = (f64::from(a) * power_of_two_f64(47) + 0.5).floor() / power_of_two_f64(47);
+        let grid = (f64::from(a) * power_of_two_f64(46) + 0.5).floor() / power_of_two_f64(46);
         let [from_start, from_end] =
             Side::BOTH.map(|side| exposure.time_units(Fraction { side, bits: a.to_bits() }).0 as f64);
         let one = exposure.in_units(1.0) as f64;
         assert!((from_start - grid * one).abs() <= 2.0, "{a:e}");
         assert!((one - from_end - grid * one).abs() <= 1024.0, "{a:e}");
     }
-    assert_eq!(exposure.ramp(Side::Start).share + exposure.plateau + exposure.ramp(Side::End).share, ONE);
+    assert_eq!(exposure.ramp(Side::Start).share + exposure.plateau() + exposure.ramp(Side::End).share, ONE);
 }
 
 /// A tick is the nearest one to the exact product of delay and rate; and a rate is accepted as long as the interval has

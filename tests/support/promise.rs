@@ -10,11 +10,10 @@ use super::cases::shutter;
 use super::curves::{Rng, around, neighbours};
 use super::oracle::{Curve, Dd, Exact, Near, exp2, ulp_f32};
 
-/// In ulp of u, or of [`BACKWARD_FLOOR`] where that is more.
+/// In ulp of u, from the least fraction of a frame on; below, in twice its ulp.
 pub const BACKWARD: f64 = 0.5;
-/// The least fraction of a frame, and its ulp.
 pub const LEAST_FRACTION: f32 = 1.0 / (1 << 23) as f32;
-pub const BACKWARD_FLOOR: f64 = 1.0 / (1u64 << 46) as f64;
+pub const BACKWARD_FLOOR: f64 = 1.0 / (1u64 << 45) as f64;
 /// On typical curves, in ulp of the time; and its mean over the named ones.
 pub const FORWARD: f64 = 0.69;
 pub const FORWARD_MEAN: f64 = 0.215;
@@ -49,10 +48,9 @@ pub const EVALUATIONS: u32 = 12;
 /// Of an octave's polynomial, in ulp of u: what its certificate allows.
 pub const DIRECT: f64 = 0.49;
 
-/// A backward error in ulp of `u`, or of [`BACKWARD_FLOOR`] where that is more.
+/// A backward error in what [`BACKWARD`] is in.
 fn floored(u: f32, backward: f64) -> f64 {
-    let ulp = ulp_f32(f64::from(u));
-    backward * ulp / ulp.max(BACKWARD_FLOOR)
+    if u < LEAST_FRACTION { backward * ulp_f32(f64::from(u)) / BACKWARD_FLOOR } else { backward }
 }
 
 /// By how many ulp a cdf falls.
