@@ -127,7 +127,7 @@ class Chip:
             self.looks += 1
             if self.looks > 4:
                 self.advance(self.next()[0])
-                if not self.syncs and self.get(DIER) == 0:
+                if not self.syncs and self.get(DIER) == 0 and not self.get(SR) & CC1:
                     uc.emu_stop()
         if address == RCC:
             on = self.get(RCC)

@@ -514,47 +514,6 @@ fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
     assert_eq!(picture.matches("<circle").count(), 5 + 1);
 }
 
-#[test]
-fn what_the_program_refuses_leaves_nothing_behind() {
-    let folder = Folder::new("fit_refused");
-    let text = leaf(1.0);
-    folder.write("good.csv", &text);
-    folder.write("cut.csv", &text[..text.len() / 2]);
-    folder.write("values.csv", rows(&sampled(trapezoid, 1200, 0.005), |_, v| format!("{v}")));
-    folder.write("scene.toml", MEASURED);
-    folder.write("trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
-    fs::create_dir(folder.path("folder.csv")).unwrap();
-    for (args, reason) in [
-        ("cut.csv", "ends in the pulse"),
-        ("cut.csv", "; read: column 2 of 2, \"v\"; times: column 1"),
-        ("values.csv", "--rate"),
-        ("missing.csv", "missing.csv: "),
-        ("folder.csv", ": "),
-        ("scene.toml", "this is a scene, and no trace; `shutter plan "),
-        ("trace.json", "this is JSON; a trace is a table"),
-        ("good.csv --columns time_ms,w", "no column 'w'; there are 2: time_ms, v"),
-        ("good.csv --frame 3", "no frame 3; the trace has 1 whole frame"),
-        (
-            "good.csv --full -3",
-            "full light, -3; that is given in the trace's own unit, the dark level included (--full)",
-        ),
-        ("good.csv --triggers 0", "--triggers"),
-        ("good.csv --rate 0", "above 0"),
-        ("good.csv --tolerance 5", "0.1% (of the exposure)"),
-        ("good.csv --tolerance -1%", "--tolerance"),
-        ("good.csv --model spline", "spline"),
-        ("good.csv --sync 5", "no delay: there is no column '5'; there are 2: time_ms, v;"),
-        ("good.csv --sync infs", "a time has a unit, as in 1.5ms"),
-        ("good.csv --sync 1s", "no delay: the given edge comes after all pulses"),
-        ("good.csv --nominal=fast", "write a speed as in 1/250, 4ms, 2s"),
-        ("good.csv --nominal=1/0", "write a speed as in 1/250, 4ms, 2s"),
-        ("good.csv --nominal=-4ms", "write a speed as in 1/250, 4ms, 2s"),
-        ("good.csv --nominal=4", "write a speed as in 1/250, 4ms, 2s"),
-    ] {
-        folder.refuses(&[(&format!("fit {args} --out no.toml --picture no.svg"), reason)]);
-    }
-}
-
 /// The README's way: a trace that no Bezier made (a leaf shutter whose blades swing on a spring, a photodiode with an
 /// RC of 30 µs, 10 bits) becomes a scene, and that the module by which the firmware's example fires.
 #[test]
@@ -607,40 +566,6 @@ fn the_delay_from_the_sync_is_measured() {
     folder.refuses(&[("fit two.csv --frame 2 --sync 0", reason)]);
     folder.run("fit two.csv --frame 1 --sync 0").well();
     folder.run("fit two.csv --frame 2 --sync 0.012s").well();
-}
-
-/// The speeds of a shutter: what each is called, what it is, by how much it is off, and the scenes of all.
-#[test]
-fn several_traces_are_a_table() {
-    let folder = Folder::new("traces");
-    folder.write("slow.csv", leaf(2.0));
-    folder.write("fast.csv", leaf(1.0));
-    // Nobody has to make the folder.
-    let both = folder.run("fit slow.csv fast.csv --nominal 10ms,1/250 --out ./of/speeds --sync 0");
-    let both = both.tells(&["wrote "]);
-    for (name, words) in [
-        ("slow.csv", &[" 10 ms ", " +0.00  "][..]),
-        // 5 ms where 4 ms are said: log2(5/4).
-        ("fast.csv", &[" 4 ms ", "+0.32", " ± ", "straight ramps"]),
-    ] {
-        let row = both.out.lines().find(|line| line.starts_with(name)).unwrap();
-        assert!(words.iter().all(|words| row.contains(words)), "{row}");
-    }
-    let plans = ["slow", "fast"].map(|name| Plan::parse(&folder.text(&format!("of/speeds/{name}.toml"))).unwrap());
-    assert_eq!(plans[0].nominal.zip(plans[1].nominal), Some((0.010, 0.004)));
-    assert!(plans.iter().all(|plan| plan.sync.delay.is_some()));
-    folder.refuses(&[
-        (
-            "fit slow.csv fast.csv --nominal 10ms",
-            "--nominal: give a speed for each trace; the exposures differ by 100 %",
-        ),
-        ("fit slow.csv fast.csv --nominal 1ms,2ms,3ms", "--nominal: 3 for 2 traces"),
-        ("fit slow.csv fast.csv --out no.toml", "--out: name a folder for a scene of each trace"),
-        ("fit slow.csv fast.csv --nominal 1/0,4ms", "write a speed as in 1/250, 4ms"),
-        ("fit slow.csv fast.csv --picture no.svg", "--picture: it is of one setting; the exposures"),
-        ("fit slow.csv slow.csv --out ./of/speeds", "slow.csv: it is given twice"),
-        ("fit slow.csv missing.csv", "missing.csv: "),
-    ]);
 }
 
 /// Its pulses match the trace without any curve: by each trigger, the samples themselves have gathered that trigger's
@@ -696,19 +621,6 @@ fn a_program_reads_json() {
     assert_eq!([0, 1].map(|i| number(&both[i], "nominal_s")), [0.004, 0.005]);
     let off = number(&plain, "opens_s") - number(&plain, "delay_s");
     assert!((off - 4e-4).abs() < 1e-12 && number(&plain, "delay_error_s") > 0.0, "{off}");
-}
-
-/// A name of the speed adds what is called so, and changes no layout.
-#[test]
-fn a_nominal_speed_is_told_as_such() {
-    let folder = Folder::new("nominal");
-    folder.write("leaf.csv", leaf(1.0));
-    let [plain, named] = ["", "--nominal 1/250"].map(|it| folder.run(&format!("fit leaf.csv {it}")).quietly());
-    let added = named.lines().filter(|line| plain.lines().all(|it| it != *line) && !line.starts_with("checksum"));
-    let speed = "speed        1/200 s measured, 1/250 s nominal: +0.32 EV";
-    assert_eq!(added.collect::<Vec<_>>(), [speed, "nominal = 4.0"]);
-    let nearest = "speed        1/200 s measured, nearest full stop 1/250 s: +0.32 EV";
-    assert!(plain.lines().any(|line| line == nearest), "{plain}");
 }
 
 /// Four sensors behind a curtain shutter: each one's exposure, and when its light comes later than the first one's.

@@ -11,6 +11,7 @@ mod outputs;
 mod plan;
 mod refusals;
 mod scene_keys;
+mod session;
 mod support;
 mod sync;
 mod table;

@@ -4,14 +4,12 @@ use std::fs;
 use std::io::{self, ErrorKind, Write};
 
 use serde_json::Value;
-use shutter_curve::ShutterCurve;
 use shutter_plan::emit::{Form, emit};
-use shutter_plan::facts::Facts;
 use shutter_plan::plan::Plan;
 use shutter_plan::scene::Scene;
 
 use crate::refusals::{BOX, MEASURED, TRAPEZOID, tables, with};
-use crate::support::{Folder, SCENES, has, planned, report, run, scene, scenes, table};
+use crate::support::{Folder, SCENES, planned, report, run, scene, scenes, table};
 
 fn path(scene: &str) -> String {
     format!("{SCENES}/{scene}.toml")
@@ -143,40 +141,6 @@ fn a_long_table_is_shortened_in_the_middle() {
     assert_eq!(rows.len(), 25);
     assert_eq!((rows[0][0], rows[11][0], rows[13][0], rows[24][0]), ("0", "11", "88", "99"));
     assert_eq!(rows[12], ["...", "76", "more"]);
-}
-
-/// What is told with its file, and no file is new then; an older one is as it was.
-#[test]
-fn what_is_wrong_leaves_nothing_behind() {
-    let folder = Folder::new("wrong");
-    folder.write("bad.toml", with(TRAPEZOID, "triggers = 4.5"));
-    folder.write("older.svg", "older");
-    folder.write("bytes.toml", b"\xff");
-    fs::create_dir(folder.path("folder.toml")).unwrap();
-    let told = "error: bad.toml:7: triggers: a whole number from 1 to 10000 is required\n  7 | triggers = 4.5\n";
-    folder.refuses(&[
-        ("plan bad.toml --out new.svg", told),
-        ("plan bad.toml --out older.svg --force", told),
-        ("plan bytes.toml --out new.svg", "bytes.toml: it is no text in UTF-8"),
-        ("plan none.toml --out new.svg", "error: none.toml: "),
-        ("plan folder.toml --out new.svg", "error: folder.toml: "),
-        ("plan --out ./new.png", "name it FILE.svg"),
-    ]);
-}
-
-#[test]
-fn a_timers_rate_and_bits_are_told() {
-    for (keys, told) in [
-        ("timer_hz = 2400000; timer_bits = 16", "2400000 Hz; 16 bits"),
-        (
-            "timer_hz = 2470587.382; timer_bits = 16",
-            "2470587.382 Hz, planned as 2470587: 0.0049 ticks off at the end; 16 bits",
-        ),
-        ("timer_hz = 25000000; timer_bits = 32", "25000000 Hz"),
-    ] {
-        let facts = Facts::new(&planned(MEASURED, keys)).lines("leaf");
-        assert!(facts.contains(&("timer", told.into())), "{facts:?}");
-    }
 }
 
 /// Ticks of a rate that is rounded, and of times that `f32` moves, are doubted in every form that has room for it.
@@ -316,57 +280,6 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
     assert!(none.ticks == 0 && none.delay.unwrap().seconds.is_sign_positive());
 }
 
-/// The speeds of a shutter: what a tester's list has, or one text of them all.
-#[test]
-fn several_scenes_are_a_table_or_one_text() {
-    let folder = Folder::new("speeds");
-    let speed = |name: &str, nominal: &str| {
-        let keys = "set_up = 'emulated'; delay = 0.5; sync_falls = true";
-        folder.write(name, with(TRAPEZOID, &format!("{keys}; nominal = {nominal}")));
-    };
-    speed("slow.toml", "0.75");
-    speed("fast.toml", "0.375");
-    let both = folder.run("plan slow.toml fast.toml").quietly();
-    let expected = "\
-scene  nominal  exposure TV    ΔEV  efficiency  delay  triggers
-slow    750 ms       750 ms  +0.00        75 %  500 ms    7 of 7
-fast    375 ms       750 ms  +1.00        75 %  500 ms    7 of 7
-";
-    let words = |text: &str| text.split_whitespace().map(String::from).collect::<Vec<_>>();
-    let ms = [("0.75 s", "750 ms"), ("0.375 s", "375 ms"), ("0.5 s", "500 ms")];
-    let both = ms.iter().fold(both, |text, (from, to)| text.replace(from, to));
-    assert_eq!(words(&both), words(expected), "{both}");
-    let array = "static const my_camera_speed my_camera_speeds[MY_CAMERA_SPEEDS] = {";
-    folder.run("plan slow.toml fast.toml --emit c --name my-camera").prints(&[array]);
-    folder.run("plan slow.toml --emit c --name leaf").prints(&["leaf_ticks[LEAF_COUNT]"]);
-    // One that is wrong is named, and nothing is printed.
-    folder.write("fast.toml", with(TRAPEZOID, "open_start"));
-    folder.refuses(&[
-        ("plan slow.toml fast.toml --out no.svg", "error: a picture is of one scene\n"),
-        ("plan slow.toml fast.toml", "fast.toml: open_start: it is required"),
-    ]);
-}
-
-#[test]
-fn facts_of_a_trapezoid_are_those_of_its_geometry() {
-    let out = report(&planned(TRAPEZOID, "nominal = 0.75"));
-    let direct = ShutterCurve::<8>::linear(0.0, 0.25, 0.75, 1.0).unwrap().direct_triggers();
-    for fact in [
-        "times        T1 0.25 s opening, T2 0.5 s fully open, T3 0.25 s closing\n",
-        "half open    TE 0.75 s,",
-        "exposure     TV 0.75 s,",
-        "efficiency   75 %\n",
-        "nominal      0.75 s, ΔEV +0.00\n",
-        "triggers     7; 7 keep the gap, 8 do not\n",
-        &format!("direct       no frame of up to {direct} triggers needs a search\n"),
-    ] {
-        has(&out, &[fact], &[]);
-    }
-    // One is not many.
-    let out = report(&planned(TRAPEZOID, "triggers = 1; min_gap = 0.5"));
-    assert!(out.contains("triggers     1; 1 keeps the gap"), "{out}");
-}
-
 #[test]
 fn pulses_come_around_the_triggers_or_take_equal_shares() {
     for (lamp, pulses) in [
@@ -399,36 +312,6 @@ fn doses_are_equal_through_the_curve() {
         let dose = collected(off) - collected(on);
         assert!((dose - 0.3 * 0.5 / 7.0).abs() < 1e-7, "{on}, {off}: {dose}");
     }
-}
-
-/// What the command line sets counts, in the units that people write; a scene need not have it then.
-#[test]
-fn settings_of_the_command_line_count() {
-    let folder = Folder::new("settings");
-    let curve = "unit = 'ms'\nopen_start = 0\nopen_end = 0\nclose_start = 10\nclose_end = 10\n";
-    let ran = |scene: &str, args: &str| {
-        folder.write("box.toml", tables(scene));
-        folder.run(&format!("plan box.toml {args}"))
-    };
-    let whole = format!("{curve}triggers = 24\ntimer_hz = 84_000_000\nmin_gap = 0.1\nduty = 0.3\n");
-    let settings = "--triggers 24 --timer-hz 84MHz --min-gap 100us --duty 0.3";
-    let expected = ran(&whole, "").prints(&["timer        84000000 Hz\n", "0.1 ms"]);
-    assert_eq!(ran(curve, settings), expected);
-    assert_eq!(ran(&format!("{curve}min_gap = 3\ntimer_hz = 1000\n"), settings), expected);
-    for (args, reason) in [
-        ("--triggers 2000", "\n  The command line sets some of this scene.\n"),
-        ("--min-gap 100", "write a time as in 0, 1.5ms"),
-        ("--min-gap -1us", "0 or more is required"),
-        ("--timer-hz 84", "box.toml:8: triggers: pulses 0 and 1 come 0 ms (0 ticks) apart"),
-        ("--timer-hz 1.5Hz", "a whole number of Hz"),
-        ("--timer-hz 84mega", "write a rate above 0 as in 48000, 32.768kHz, 84MHz"),
-        ("--duty 1.5", "duty: above 0 and at most 1 is required"),
-        ("--triggers 0", "--triggers"),
-    ] {
-        ran(&whole, args).refused(reason);
-    }
-    let out = ran(&whole, "--timer-hz 32.768kHz").out;
-    assert_eq!(out.matches("32768 Hz").count(), 1);
 }
 
 /// The drawings take the width that there is; 40 columns suffice.
