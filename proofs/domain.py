@@ -7,20 +7,16 @@ from box import *
 
 # Rule 2. `t'` is at least 3 p^2 next to the start, as much next to the end, and SLOWEST between.
 SLOWEST, NEXT_TO_END = Fraction(45, 976), Fraction(1, 8)
-DARK = (0, 0, 0, 0)
 
 
 def passes(slowest, crossed=CROSSED):
-    slopes = [slope(Extreme(corner, DARK).t) for corner in corners(crossed)]
+    slopes = [slope(ramp.t) for ramp in extremes([(0, 0, 0, 0)], crossed)]
     parts = [Fraction(k, 256) for k in range(32, 225)]
-    return all(
-        least([a - b for a, b in zip(t, [0, 0, 3])], Fraction(0), NEXT_TO_END) >= 0
-        and all(least(t, x, y) >= slowest for x, y in zip(parts, parts[1:]))
-        for t in slopes
-    )
+    outer = all(least([a - b for a, b in zip(t, [0, 0, 3])], Fraction(0), NEXT_TO_END) >= 0 for t in slopes)
+    return outer and all(least(t, x, y) >= slowest for x, y in zip(parts, parts[1:]) for t in slopes)
 
 
-vertex = slope(Extreme((ONE, 1 - CROSSED), DARK).t)
+vertex = slope(Extreme((ONE, 1 - CROSSED), (0, 0, 0, 0)).t)
 proven("t' is at least 3 p^2 and 3 (1 - p)^2 within 1/8 of an end, and between them 45/976 of its mean, more than "
        "1/22; at one place it is no more",
        at(vertex, -vertex[1] / (2 * vertex[2])) == SLOWEST > Fraction(1, 22),
@@ -63,8 +59,8 @@ for what, number, left, right, on in (
     ("mass", MASS_TERMS, lambda r: sizes(r.m), lambda r: r.m, ramps),
     ("time", TIME_TERMS, lambda r: sizes(r.t), lambda r: r.t, times_only),
 ):
-    claim = f"the terms of a {what} since an end, without their signs, are at most {number} times the {what}"
-    proven(claim, tight(number, left, right, on))
+    proven(f"the terms of a {what} since an end, without their signs, are at most {number} times the {what}",
+           tight(number, left, right, on))
 MASS_SHIFT = constant("MASS_SHIFT")
 most = max(sum(sizes(c)) / sum(r.m) for r in ramps for c in (r.m, r.from_end()))
 proven(f"those since either end are at most {float(most)} times the ramp's share: so a coefficient, and Horner's sums, "

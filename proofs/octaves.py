@@ -49,8 +49,7 @@ valid("offset is (exact - center) 2^shift, if that fits the word: for all positi
 # lowest bits come to.
 FILLED, MOST_SHIFT = constant("FILLED"), constant("MOST_SHIFT")
 # In `candidate` and in `Span::new`.
-REACH, EPSILONS = Fraction(1, 100), 4
-WORD = 2**32
+REACH, EPSILONS, WORD = Fraction(1, 100), 4, 2**32
 EPSILON = WORD // 2**23
 # Half of the rounding of a sum below 4. A served fraction is as near to the f32 between which the part is.
 MIDDLE = SERVED = EPSILON // 2

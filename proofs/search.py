@@ -43,8 +43,9 @@ proven(f"Series::at is low by less than 3 (n - 1) 2^shift times the place, and 1
        f"{log2(WOBBLE):.2f}; a way by {TIME_WOBBLE}",
        all(loses(n, s, p) <= 3 * (n - 1) * 2**s * p + 1 for n in (3, 6) for s in (0, 9) for p in (U, 1)),
        WOBBLE == 15 * 2**MASS_SHIFT + 1 and TIME_WOBBLE == 49)
-# Horner's sums. Those of a mass are at most its coefficients' sizes, below 2^62 (domain.py), and what is lost. A time's differences are 2^59 at most together, each cut. An openness' sums are
-# polynomials, c_k + c_(k+1) p + ..., of any four control values from 0 to 1.
+# Horner's sums. Those of a mass are at most its coefficients' sizes, below 2^62 (domain.py), and what is lost. A time's
+# differences are 2^59 at most together, each cut. An openness' sums are polynomials, c_k + c_(k+1) p + ..., of any four
+# control values from 0 to 1.
 powers = lambda t0, t1, t2, t3: [3 * (t1 - t0), 3 * (t2 - 2 * t1 + t0), t3 - 3 * (t2 - t1) - t0]
 tails = lambda c: [c[k:] for k in range(len(c))]
 of_time = max(sum(map(abs, powers(0, a, b, 1))) for a, b in box.corners()) * 2**59 + 13 + 6
@@ -106,11 +107,11 @@ def answer(e, grid=GRID):
 
 
 BINADES = range(-62, -1)
-apart = min(answer(e)[0] for e in BINADES)
-proven(f"two searches for neighbouring fractions find places whose true masses are 2^{log2(apart):.2f} units apart or "
-       f"more: so their ways are {float(apart / PER_FINE):.0f} fine units apart, measured to {WAY}; with a grid of "
-       "2^-47 not so",
-       apart / PER_FINE > WAY and not min(answer(e, GRID / 2)[0] for e in BINADES) / PER_FINE > WAY)
+gap = lambda grid: min(answer(e, grid)[0] for e in BINADES) / PER_FINE
+proven(f"two searches for neighbouring fractions: true masses of their places are 2^{log2(gap(GRID) * PER_FINE):.2f} "
+       f"units apart or more, so their ways {float(gap(GRID)):.0f} fine units, measured to {WAY}; with a grid of "
+       f"2^{GRID_BITS - 63} not so",
+       gap(GRID) > WAY and not gap(GRID / 2) > WAY)
 start, end = Ints("start end")
 way, rest = Reals("way rest")
 inside = lambda way: If(ToInt(way) < 0, 0, If(ToInt(way) < end - start, ToInt(way), end - start))
@@ -158,6 +159,13 @@ moved, value = Fraction(LEAST_WAY_ERROR + WAY + 2, 2**61), (WOBBLE + CUTS + JOIN
 proven(f"cdf on a ramp: within {float(value + Fraction(1, 2)):.3f} ulp, of at least that of 2^-24, of the exact one at "
        f"a time within 1/8 ulp and 2^{log2(moved):.2f} of the interval",
        value + SHARE * 2**24 + Fraction(1, 2) < 1 and moved < Fraction(1, 2**54))
+# On the plateau the area has 2^k to 2^(k+1) units, and the way to a time moves up by 61 - k, or one more for 2^k. Its
+# two ends are cut to units, one over the area has three roundings, and the product, low by less than 3, counts twice.
+ks = range(int(log2(2**61 * constant("LEAST_INTERVAL") * LEAST_AREA)), 62)
+shifts, value = [61 - k + more for k in ks for more in (0, 1)], (2 * 2 * PER_FINE + 2 * 3 + JOIN) / TRACE
+proven(f"cdf on the plateau: within {float(value + Fraction(1, 2)):.3f} such ulp; a way moves up by {min(shifts)} to "
+       f"{max(shifts)} bits, so that it has 62 at most",
+       min(shifts) == 0 and max(shifts) < 32 and value + 4 * U64 * 2**24 + Fraction(1, 2) < 1)
 
 # --- The first guess: bits taken as logarithms, and their quotients. 4 x R / 2^32 is x R / 2^30, linear in x.
 LOG_ONE, a, b = constant("LOG_ONE"), *BitVecs("a b", 32)

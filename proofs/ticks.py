@@ -56,8 +56,7 @@ proven(f"no time is outside the interval: a polynomial's is 2^{log2(by_polynomia
        by_polynomial > 0 and by_line > 5 and is_inside(RAMP) and not is_inside(RAMP / 2**13))
 
 # --- Ticks. The scale, by the exponents of a length and a rate. An interval has at most 2^TICK_BITS ticks.
-TICK_BITS = constant("TICK_BITS")
-ticks = BitVec("ticks", 128)
+TICK_BITS, ticks = constant("TICK_BITS"), BitVec("ticks", 128)
 upper = LShR(ticks + (2**32 - 1), 32)
 from_shortest = And(UGE(ticks, 1 << SHORTEST), ULT(ticks, 1 << 96))
 for e in range(97):
