@@ -10,7 +10,6 @@ from z3 import *
 from common import *
 
 SHIFT_MASK, STEP = constant("SHIFT_MASK"), constant("EIGHTH")
-
 # The index, and the significand with its sign, which is the place in the octave. `top` is below 2, `bits` those of a
 # fraction above 0 and at most `top`.
 top, bits = BitVecs("top bits", 32)

@@ -128,7 +128,7 @@ valid("a searched time that is before a polynomial's, in whole units, was before
 
 # --- What an answer collects. A unit may cross the middle of two f32. If units are more than 2 fine ones, the greatest
 # time is more than twice the interval, so f32 inside are 2^37 units apart, and a way to a middle has 2^36: then a
-# unit's mass is that share of OPEN_WAY times the mass.
+# unit's mass is that share of OPEN_WAY times the mass. On the plateau it is that share, and a way is low by 3 units.
 OPEN_WAY = 22
 proven(f"openness times the way since an end is at most {OPEN_WAY} times the mass",
        box.tight(OPEN_WAY, lambda r: box.times(r.t, r.f), lambda r: r.m, box.extremes()))
