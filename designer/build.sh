@@ -37,17 +37,18 @@ files=dist.new/files
 mkdir $files
 cp page/icon.svg ../cli/traces/leaf.csv $files
 folder=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
-built=$folder/$target/page/designer.wasm
-# First what the page begins with, then what it loads when that is asked for.
-"${build[@]}"
-cp "$built" $files/engine.wasm
-"${build[@]}" --features studio
-cp "$built" $files/studio.wasm
-
 cargo run --quiet --package designer --bin presets >dist.new/presets.json
-bundled=(npx esbuild --bundle --minify --format=esm --target=es2023 --log-level=warning --outdir=$files)
-"${bundled[@]}" page/main.js page/worker.js page/style.css "--alias:presets=$PWD/dist.new/presets.json"
-rm dist.new/presets.json
+# First what the page begins with, then what it loads when that is asked for.
+for part in engine studio; do
+    "${build[@]}" $([ $part = engine ] || echo --features $part)
+    cargo run --quiet --package designer --features bind --bin bind -- \
+        "$folder/$target/page/designer.wasm" dist.new/bound $part
+    mv dist.new/bound/${part}_bg.wasm $files/$part.wasm
+done
+npx esbuild page/main.js page/worker.js page/style.css --bundle --minify --format=esm --target=es2023 \
+    --log-level=warning --outdir=$files "--alias:presets=$PWD/dist.new/presets.json" \
+    "--alias:engine=$PWD/dist.new/bound/engine.js" "--alias:studio=$PWD/dist.new/bound/studio.js"
+rm -r dist.new/presets.json dist.new/bound
 
 # All but the page itself stands in a folder that is called by its content: what an old index.html names is never a new
 # file, however long a host lets browsers keep either.

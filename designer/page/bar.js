@@ -4,8 +4,8 @@ import { html, render } from 'lit-html';
 import { $, watch, write } from './dom.js';
 import { helps } from './export.js';
 import { go, tell } from './model.js';
-import { remedies, told } from './words.js';
-import { FIELDS, INNER } from './scene.js';
+import { fieldsOf, remedies, wordsOf } from './told.js';
+import { FIELDS } from './scene.js';
 
 const isNewWrong = watch(), isNewBusy = watch();
 const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
@@ -16,30 +16,30 @@ const showRead = () => {
 };
 
 // What a person can do about it.
-function buttonsFor(wrong, note, pending) {
+function buttonsFor(model) {
+  const { wrong, note, pending } = model;
   if (wrong?.isLink) return button('Go on without it', () => go(-1));
-  if (wrong) return helps(remedies(wrong));
+  if (wrong) return helps(remedies(model));
   if (!note) return [];
   const close = button('Close', () => tell({ note: null }));
   return [note.act ? button(...note.act) : [], pending ? button('Show why', showRead) : [], close];
 }
 
 /** Draws it. */
-export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
+export function drawBar(model) {
+  const { wrong, busy, note, pending, view } = model, words = wrong ? wordsOf(model) : note?.words ?? '';
   // While something is computed, a button that is pressed stays.
-  if (isNewWrong(wrong, note, pending, view)) {
-    const head = wrong?.isLink && !wrong.reason ? 'The link holds no curve: ' : '';
-    const words = wrong ? head + told(wrong, scene) : note?.words ?? '';
+  if (isNewWrong(wrong, words, note, pending, view)) {
     $('problem').hidden = !words;
     $('problem').classList.toggle('wrong', Boolean(wrong || note?.isWrong));
-    render(html`<span>${words}</span><span class="buttons">${buttonsFor(wrong, note, pending)}</span>`, $('problem'));
+    render(html`<span>${words}</span><span class="buttons">${buttonsFor(model)}</span>`, $('problem'));
   }
   if (isNewBusy(busy, busy?.words, busy?.share)) {
     $('busy').hidden = !busy;
     const share = busy?.share ? `: ${Math.round(100 * busy.share)} %` : '';
     if (busy) write($('busy').firstElementChild, `${busy.words}${share} …`);
   }
-  const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.inner ? INNER.slice(...wrong.inner) : [wrong.key];
+  const at = !wrong ? [] : wrong.id ? [wrong.id] : fieldsOf(wrong);
   for (const id of FIELDS) {
     const field = $(id), is = at.includes(id);
     if (is && $('inner').contains(field)) $('inner').open = true;

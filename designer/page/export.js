@@ -3,8 +3,8 @@
 import { html, nothing, render } from 'lit-html';
 import { $, arrowed, watch } from './dom.js';
 import { give } from './form.js';
-import { model } from './model.js';
-import { hash, toml, warnings } from './scene.js';
+import { change, model } from './model.js';
+import { hash, syncOf } from './scene.js';
 import { emitForm } from './studio.js';
 
 const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON']];
@@ -70,27 +70,25 @@ const offerCopy = (isOffered) => ['copy', 'save'].forEach((id) => ($(id).disable
 
 async function written(scene, form) {
   if (scene.untold) return { reason: scene.untold, remedies: [['Use the curve all the same', { untold: null }]] };
-  if (form === 'toml') return { text: toml(scene), file: `${plain(scene.name)}.toml` };
-  const lacks = LACKS.filter(([, is]) => is(scene));
+  const lacks = form === 'toml' ? [] : LACKS.filter(([, is]) => is(scene));
   if (lacks.length) {
     const reason = `hardware needs what only you know: ${lacks.map(([what]) => what).join('; ')}`;
     return { reason, remedies: lacks.flatMap(([, , ...remedies]) => remedies) };
   }
-  const answer = await emitForm(scene, form);
+  const answer = await emitForm(scene, form === 'toml' ? null : form);
   // Overtaken by a newer question: that one's text is it.
-  if (!answer) return made;
-  if (answer.Err) return { reason: answer.Err };
-  // Every other form tells by itself what is doubtful.
-  return { ...answer.Ok, text: (form === 'csv' ? warnings(scene) : '') + answer.Ok.text };
+  return answer ? answer.Ok ?? { reason: answer.Err } : made;
 }
 
 // What somebody has to say, when that is so, and what says it.
 const LACKS = [
-  ['the set-up', (scene) => scene.set_up === null,
+  ['the set-up', ({ flashes }) => flashes.set_up === null,
     ['The camera’s own shutter stays open: emulated', { set_up: 'emulated' }],
     ['This shutter dims the lamp: in the path', { set_up: 'in_path' }]],
-  ['the timer’s rate', (scene) => scene.timer_hz === null, ['Give the timer’s rate', 'timer_hz']],
-  ['which way the sync goes', ({ delay, sync_falls }) => delay !== null && sync_falls === null,
+  ['the timer’s rate', ({ flashes }) => flashes.timer_hz === null, ['Give the timer’s rate', 'timer_hz']],
+  ['the lamp’s least gap', ({ flashes }) => flashes.min_gap === null,
+    ['Give the least gap', 'min_gap'], ['It needs none', { min_gap: 0 }]],
+  ['which way the sync goes', (scene) => syncOf(scene).delay !== null && syncOf(scene).sync_falls === null,
     ['The sync falls', { sync_falls: true }], ['The sync rises', { sync_falls: false }]],
 ];
 
@@ -111,9 +109,19 @@ function showForm({ text, reason, remedies = [] }) {
 
 /** Remedies as buttons: they change the scene, or lead to a field. */
 export const helps = (remedies) => remedies.map(([words, to]) => {
-  const help = () => (typeof to === 'string' ? $(to).focus() : give(to));
+  const help = () => {
+    if (typeof to === 'string') $(to).focus();
+    else if ('untold' in to) change({ scene: { ...model.now.scene, ...to } });
+    else give(changed(to));
+  };
   return html`<button type="button" @click=${help}>${words}</button>`;
 });
+
+// Of the flashes that the program proposes, the values that are others.
+function changed({ unit, ...flashes }) {
+  const now = model.now.scene.flashes;
+  return Object.fromEntries(Object.entries(flashes).filter(([key, value]) => value !== now[key]));
+}
 
 const say = (words) => [$('told'), $('speeds-told')].forEach((it) => it && (it.textContent = words));
 
@@ -140,6 +148,3 @@ function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   say(`Saved: ${name}`);
 }
-
-// A scene's name as that of a file.
-const plain = (name) => name.replace(/[^\w-]+/g, '-') || 'shutter';

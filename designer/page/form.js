@@ -5,10 +5,10 @@ import { change, model, refuse, seal } from './model.js';
 import { dial, parse } from './numbers.js';
 import {
   CHOICES, FIELDS, INNER, KINDS, LAMP, STOPS, TIMES,
-  inUnit, innerOf, isCount, lampOf, perSecond, tidy, withDelay, withInner, withTimes,
+  inUnit, innerOf, isCount, lampOf, perSecond, tidy, timesOf, valueOf, withInner, withTimes, withValues,
 } from './scene.js';
+import { label } from './told.js';
 import { readTrace } from './trace.js';
-import { label } from './words.js';
 
 /** Begins. */
 export function startForm() {
@@ -17,7 +17,6 @@ export function startForm() {
   numbers.addEventListener('submit', (event) => event.preventDefault());
   numbers.addEventListener('focusout', () => {
     seal();
-    typed.to = null;
     // Once the focus is elsewhere.
     setTimeout(() => drawForm(model));
   });
@@ -27,7 +26,7 @@ export function startForm() {
 
 // The number in a field of the form; an error says why there is none.
 function readField(id, unit) {
-  const value = parse($(id).value, KINDS[id] ?? 'time', unit);
+  const value = parse($(id).value, KINDS[id], unit);
   if (!Number.isNaN(value)) return value;
   if ($(id).hasAttribute('data-optional')) return null;
   throw new Error(`${label(id)}: a number is required`);
@@ -42,28 +41,32 @@ function tells(id, value, unit) {
   }
 }
 
-/** Changes the scene; of the numbers, `keys` are a person's from now on. */
-export function give(changes, keys = Object.keys(changes), key) {
-  const { scene } = model.now;
-  const given = keys.map((key) => (LAMP.includes(key) ? 'lamp' : key));
-  change({ scene: { ...scene, ...changes, given: [...new Set([...scene.given, ...given])] } }, { key });
+/** A scene with values that a person gives, which are theirs from now on. */
+function given(scene, keys) {
+  const told = keys.map((key) => (LAMP.includes(key) ? 'lamp' : key));
+  return { ...scene, given: [...new Set([...scene.given, ...told])] };
+}
+
+/** Changes values of fields. */
+export function give(values, key) {
+  change({ scene: given(withValues(model.now.scene, values), Object.keys(values)) }, { key });
 }
 
 // So many flashes. Those of a trace are its own: it is asked again.
 function setTriggers(n, key) {
-  const { scene: { measured }, trace } = model.now;
+  const { scene: { own }, trace } = model.now, measured = own?.trigger_times.length;
   // Another number of this trace's own may be under way.
-  if (trace && n === measured?.length && model.busy?.file === trace.file) model.busy?.cancel();
-  if (!measured || n === measured.length) return give({ triggers: n }, ['triggers'], key);
+  if (trace && n === measured && model.busy?.file === trace.file) model.busy?.cancel();
+  if (!own || n === measured) return give({ triggers: n }, key);
   if (!trace?.file) {
-    return refuse(`These are ${measured.length} measured times: for another number, drop the trace again.`, 'triggers');
+    return refuse(`These are ${measured} measured times: for another number, drop the trace again.`, 'triggers');
   }
   if (!isCount(n)) return refuse(`${label('triggers')}: a whole number from 1 to 10000 is required`, 'triggers');
   readTrace(trace.file, trace.asked, n);
 }
 
 // The numbers of another lamp.
-function lamp(kind, { triggers, unit }) {
+function lamp(kind, { flashes: { triggers }, unit }) {
   const next = { pulse: null, duty: null, min_pulse: null, fully_open: kind === 'full' || null };
   const share = ((model.view?.exposure ?? 0) * perSecond(unit)) / triggers;
   if (kind === 'pulse') next.pulse = tidy(share / 4, 2) || 1;
@@ -73,9 +76,9 @@ function lamp(kind, { triggers, unit }) {
 
 function onInput({ target: { id, value: text, checked } }) {
   const { scene } = model.now;
-  if (id === 'name') return give({ name: text.trim() || 'shutter' }, [id], id);
-  if (id === 'unit') return give(inUnit(scene, text), [id]);
-  if (id === 'straight') return give(withInner(scene, checked ? null : innerOf(scene)), []);
+  if (id === 'name') return change({ scene: given({ ...scene, name: text.trim() || 'shutter' }, [id]) }, { key: id });
+  if (id === 'unit') return change({ scene: given(inUnit(scene, text), [id]) });
+  if (id === 'straight') return change({ scene: withInner(scene, checked ? null : innerOf(scene)) });
   if (id === 'lamp') return give(lamp(text, scene));
   if (CHOICES[id]) return give({ [id]: CHOICES[id].find((it) => String(it) === text) ?? null });
   if (!FIELDS.includes(id)) return;
@@ -90,27 +93,19 @@ function onInput({ target: { id, value: text, checked } }) {
   if (id === 'triggers') setTriggers(value, id);
   else if (i >= 0) {
     // A ramp keeps its shape when its time is typed, as when it is dragged.
-    const { times, inner, measured, delay } = good?.unit === scene.unit ? good : scene;
-    give(withTimes({ ...scene, times, inner, measured, delay }, scene.times.with(i, value)), [], id);
-  } else if (k >= 0) give(withInner(scene, innerOf(scene).with(k, value)), [], id);
-  else if (id === 'delay') {
-    // Each letter is of what was there before the first.
-    if (typed.to !== scene) typed.from = scene;
-    give(withDelay(typed.from, value), [id], id);
-    typed.to = model.now.scene;
-  } else give({ [id]: value }, [id], id);
+    const { shutter, own } = good?.unit === scene.unit ? good : scene;
+    const from = { ...scene, shutter: { ...shutter, nominal: scene.shutter.nominal }, own };
+    change({ scene: withTimes(from, timesOf(scene).with(i, value)) }, { key: id });
+  } else if (k >= 0) change({ scene: withInner(scene, innerOf(scene).with(k, value)) }, { key: id });
+  else give({ [id]: value }, id);
 }
-
-/** The scene before a delay was typed, and after its last letter. */
-const typed = {};
 
 // What a field shows of a scene.
 function wordsOf(scene, id) {
-  const i = TIMES.indexOf(id), k = INNER.indexOf(id);
-  const value = i >= 0 ? scene.times[i] : k >= 0 ? innerOf(scene)[k] : scene[id];
+  const value = valueOf(scene, id);
   if (value === null) return { value, words: '' };
   if (id === 'nominal') return { value, words: dialled(value, scene.unit) };
-  return { value, words: String(k >= 0 && Number.isFinite(value) ? tidy(value, 7) : value) };
+  return { value, words: String(INNER.includes(id) ? tidy(value, 7) : value) };
 }
 
 // What a dial has, in full: 1/125, or 2 s; what no dial has is a time.
@@ -130,11 +125,13 @@ export function drawForm({ now: { scene }, wrong }) {
   const name = $('name');
   if (document.activeElement !== name || (name.value.trim() || 'shutter') !== scene.name) name.value = scene.name;
   $('unit').value = scene.unit;
-  for (const id of ['set_up', 'sync_falls']) $(id).value = String(scene[id] ?? '');
-  $('straight').checked = !scene.inner;
+  for (const id of ['set_up', 'sync_falls']) $(id).value = String(valueOf(scene, id) ?? '');
+  $('straight').checked = !scene.shutter.shutteropening;
   const kind = lampOf(scene);
   $('lamp').value = kind;
-  $('lamp').disabled = Boolean(scene.measured);
+  $('lamp').disabled = Boolean(scene.own);
   for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== kind;
   for (const small of document.querySelectorAll('small.unit')) write(small, scene.unit);
+  // From where the times are counted.
+  write($('times-from'), valueOf(scene, 'delay') === null ? 'Times' : 'Times from the edge of the sync');
 }

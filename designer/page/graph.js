@@ -3,7 +3,7 @@
 import { $, atMost, svg, watch, write } from './dom.js';
 import { Handles } from './handles.js';
 import { model, tell } from './model.js';
-import { edgeOf, isSamePlace, isSameShape, perSecond, short, tidy } from './scene.js';
+import { isSameShape, originSeconds, perSecond, short, syncOf, tidy } from './scene.js';
 import { viewOf } from './view.js';
 
 const LEFT = 44, RIGHT = 16, TOP = 18, BETWEEN = 34, BOTTOM = 44, RESIDUAL = 64;
@@ -45,9 +45,10 @@ export function outline({ ramps }, place) {
 
 /** Times and the share of the light that has come by then: by the curve, or between the triggers that a trace tells. */
 export function collected({ scene, view }) {
-  if (!scene.measured) return view.cdf;
-  const end = Math.max(view.times[3], 1.02 * view.marks.at(-1)[0]);
-  return [[0, 0], ...view.marks.map(([t, , u]) => [t, u]), [end, 1]];
+  if (!scene.own) return view.cdf;
+  const start = scene.own.open_start / perSecond(scene.unit) - originSeconds(scene);
+  const last = view.marks.at(-1)[0], end = Math.max(view.times[3], last + 0.02 * (last - start));
+  return [[start, 0], ...view.marks.map(([t, , u]) => [t, u]), [end, 1]];
 }
 
 /** The share in such a list at a time. */
@@ -64,9 +65,14 @@ export function shareAt(list, t) {
   return u0 + ((t - t0) / (t1 - t0 || 1)) * (u1 - u0);
 }
 
-/** What a scene's curve leaves of a trace's samples, where `fitted` is the view of the curve that was fitted. */
-function left({ samples }, fitted, view) {
-  return samples.map(([t, o, r]) => [t, o, r + openness(fitted, t) - openness(view, t)]);
+/**
+ * A trace's samples in times of the view, and what its curve leaves of them, where `fitted` is the view of the curve that
+ * was fitted, if that is another one.
+ */
+function left({ samples }, origin, view, fitted) {
+  if (!fitted) return samples.map(([t, o, r]) => [t - origin, o, r]);
+  const moved = ([t, o, r]) => [t - origin, o, r + openness(fitted, t - fitted.origin) - openness(view, t - origin)];
+  return samples.map(moved);
 }
 
 /** The root of the mean square of what is left. */
@@ -130,7 +136,9 @@ export class Graph {
   show({ now: { scene, trace }, last, cursor }) {
     if (!last) return;
     Object.assign(this, { scene, view: last });
-    if (this.isNew.trace(trace)) this.fitted = trace?.fit && viewOf(trace.scene).Ok;
+    if (this.isNew.trace(trace)) {
+      this.fitted = trace?.fit && { ...viewOf(trace.scene).Ok, origin: originSeconds(trace.scene) };
+    }
     if (this.isNew.all(scene, last, trace, this.dragged)) this.draw();
     if (this.isNew.cursor(last, cursor, scene.unit, this.size)) this.point(cursor);
   }
@@ -147,7 +155,7 @@ export class Graph {
     if (!marks.length) return '';
     // Before the first and after the last measured flash nothing is known.
     const [[[first]], [last]] = [marks, marks.at(-1)];
-    const beyond = !scene.measured ? '' : s < first ? 'under ' : s > last ? 'over ' : '';
+    const beyond = !scene.own ? '' : s < first ? 'under ' : s > last ? 'over ' : '';
     const u = shareAt(collected(this), Math.min(Math.max(s, beyond ? first : s), beyond ? last : s));
     const places = Math.min(9, Math.max(0, Math.ceil(-Math.log10(this.perPixel))));
     const open = Math.round(1e4 * openness(view, s)) / 100;
@@ -156,7 +164,7 @@ export class Graph {
     return [
       `${(s * this.perUnit).toFixed(places)} ${scene.unit}`, `${short(open, 3)} % open`,
       `${beyond}${short(100 * u, 3)} % collected`,
-      ...(plan.Ok && scene.timer_hz !== null ? [`flash ${near}: tick ${plan.Ok.ticks[near]}`] : []),
+      ...(plan.Ok && scene.flashes.timer_hz !== null ? [`flash ${near}: tick ${plan.Ok.ticks[near]}`] : []),
     ].join(' · ');
   }
 
@@ -175,9 +183,9 @@ export class Graph {
     const light = this.samples?.filter(([, o]) => o > 0.05) ?? [];
     const lit = light.length ? [light[0], light.at(-1)] : [];
     const seen = [...lit, ...this.view.marks.slice(0, 1), ...this.view.marks.slice(-1)].map(([t]) => t);
-    const times = [...ends, ...seen].map((t) => t * per), edge = edgeOf(this.scene);
-    // So is the edge of the sync, unless that is far off.
-    if (edge !== null && Math.abs(edge - times[0]) <= times[3] - times[0]) times.push(edge);
+    const times = [...ends, ...seen].map((t) => t * per);
+    // So is the edge of the sync, from which the times are counted then, unless that is far off.
+    if (this.isSynced && Math.abs(ends[0]) <= ends[1] - ends[0]) times.push(0);
     const room = 0.05 * (Math.max(...times) - Math.min(...times));
     const range = [Math.min(...times) - room, Math.max(...times) + room];
     const [low, high] = [-0.1, Math.max(1.12, ...light.map(([, o]) => o + 0.08))];
@@ -243,8 +251,10 @@ export class Graph {
     const { view, paths } = this;
     const { trace } = model.now;
     const fit = trace?.fit;
-    const isFitted = fit && isSamePlace(trace.scene, this.scene);
-    this.samples = isFitted ? fit.samples : fit && this.fitted ? left(fit, this.fitted, view) : null;
+    const isFitted = fit && isSameShape(trace.scene, this.scene);
+    const origin = originSeconds(this.scene);
+    this.isSynced = syncOf(this.scene).delay !== null;
+    this.samples = fit && this.fitted ? left(fit, origin, view, !isFitted && this.fitted) : null;
     this.fit();
     const per = this.perUnit;
     const f = atMost;
@@ -253,14 +263,14 @@ export class Graph {
     const set = (path, d) => path.getAttribute('d') !== d && path.setAttribute('d', d);
     const ramps = outline(view, ([t, y]) => `${f(X(t))} ${f(this.y(y))}`);
     // Where a trace tells the triggers, no curve does.
-    paths.curve.classList.toggle('beside', Boolean(this.scene.measured));
+    paths.curve.classList.toggle('beside', Boolean(this.scene.own));
     const [start, end] = [f(X(view.times[0])), f(X(view.times[3]))];
     set(paths.curve, `M${LEFT} ${zero}H${start}${ramps}L${end} ${zero}H${LEFT + this.width}`);
     this.clip.setAttribute('d', `M${start} ${zero}${ramps}L${end} ${zero}Z`);
 
-    const top = f(this.y(this.high)), edge = edgeOf(this.scene);
-    const isSeen = edge >= this.range[0] && edge <= this.range[1];
-    set(paths.edge, edge !== null && isSeen ? `M${f(this.x(edge))} ${TOP}V${this.cdfBottom}` : '');
+    const top = f(this.y(this.high));
+    const isSeen = this.isSynced && this.range[0] <= 0 && this.range[1] >= 0;
+    set(paths.edge, isSeen ? `M${f(this.x(0))} ${TOP}V${this.cdfBottom}` : '');
     const shares = ['', ''];
     if (view.edges.length <= MOST_SHARES) {
       const edges = view.edges.map((t) => f(X(t)));
@@ -288,16 +298,16 @@ export class Graph {
     set(paths.cdfDots, dots[1]);
     const come = collected(this).map(([t, u]) => `${f(X(t))} ${f(this.u(u))}`);
     const all = `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`;
-    set(paths.cdf, this.scene.measured ? `M${come.slice(1, -1).join('L')}` : all);
+    set(paths.cdf, this.scene.own ? `M${come.slice(1, -1).join('L')}` : all);
 
-    const tick = (ticks) => f(X(view.times[0] + ticks / view.plan.Ok.timer_hz));
+    const tick = (ticks) => f(X(view.times[0] + (view.plan.Ok.early + ticks) / view.plan.Ok.hz));
     const pulses = view.plan.Ok?.pulses ?? [];
     const high = f(this.y(1));
     set(paths.lamp, pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''));
-    if (this.scene.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
+    if (this.scene.flashes.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
     else paths.lamp.removeAttribute('clip-path');
     const { samples } = this;
-    const keys = { lamp: pulses.length, trace: samples, share: shares[1], edge: edge !== null && isSeen };
+    const keys = { lamp: pulses.length, trace: samples, share: shares[1], edge: isSeen };
     for (const [name, isThere] of Object.entries(keys)) document.querySelector(`.${name}-key`).hidden = !isThere;
     const points = (y) => samples ? `M${samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L')}` : '';
     set(paths.trace, points(([, o]) => this.y(o)));
@@ -306,9 +316,9 @@ export class Graph {
     const missed = points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half));
     set(paths.residual, missed && `${missed}M${LEFT} ${middle}H${LEFT + this.width}`);
     // Of another number of flashes the fit has not told the errors.
-    const told = isFitted && fit.triggers.length === this.scene.triggers ? fit.triggers : [];
-    set(paths.errors, told.map(([t, error]) => {
-      const y = f(this.y(openness(view, t)));
+    const told = isFitted && fit.triggers.length === this.scene.flashes.triggers ? fit.triggers : [];
+    set(paths.errors, told.map(([at, error]) => {
+      const t = at - origin, y = f(this.y(openness(view, t)));
       return `M${f(X(t - error))} ${y}H${f(X(t + error))}m0 -5v10M${f(X(t - error))} ${Number(y) - 5}v10`;
     }).join(''));
     this.handles.draw();

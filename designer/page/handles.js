@@ -2,7 +2,7 @@
 
 import { atMost, svg } from './dom.js';
 import { change, model } from './model.js';
-import { INNER, TIMES, innerOf, short, tidy, withInner, withTimes } from './scene.js';
+import { INNER, TIMES, innerOf, short, tidy, timesOf, withInner, withTimes } from './scene.js';
 import { allowed } from './view.js';
 
 /** The handles: the four times, then the four inner control points. */
@@ -18,14 +18,15 @@ for (const ramp of ['opening', 'closing']) NAMES.push(...POINTS.map((point) => `
 
 /** Where a handle is: [time in the scene's unit, openness]. */
 function placeOf(scene, i) {
-  if (i < 4) return [scene.times[i], [0, 1, 1, 0][i]];
+  const times = timesOf(scene);
+  if (i < 4) return [times[i], [0, 1, 1, 0][i]];
   const inner = innerOf(scene), at = INNER.indexOf(HANDLES[i]);
-  return [scene.times[0] + inner[at] * (scene.times[3] - scene.times[0]), inner[at + 1]];
+  return [times[0] + inner[at] * (times[3] - times[0]), inner[at + 1]];
 }
 
 /** Between which times a handle can be moved. */
 function limits(scene, i) {
-  const { times } = scene, length = times[3] - times[0];
+  const times = timesOf(scene), length = times[3] - times[0];
   if (i < 4) return [i ? times[i - 1] : times[0] - length, i < 3 ? times[i + 1] : times[3] + length];
   const [from, to] = i < 6 ? times : times.slice(2);
   // Rounded, it still is within.
@@ -36,10 +37,10 @@ function limits(scene, i) {
 
 /** The scene with a handle as near to a place as its box lets it. */
 function moved(scene, i, [t, y]) {
-  const [start, , , end] = scene.times;
+  const times = timesOf(scene), [start, , , end] = times;
   const [least, most] = limits(scene, i);
   t = Math.min(Math.max(t, i ? least : -Infinity), i === 3 ? Infinity : most);
-  if (i < 4) return kept(scene, withTimes(scene, scene.times.with(i, t)));
+  if (i < 4) return kept(scene, withTimes(scene, times.with(i, t)));
   const inner = [...innerOf(scene)], at = INNER.indexOf(HANDLES[i]);
   inner[at] = tidy((t - start) / (end - start), 9);
   inner[at + 1] = Math.min(Math.max(y, 0), 1);
@@ -82,14 +83,14 @@ export class Handles {
     if ((!by && end === undefined) || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     let [t, y] = placeOf(scene, i);
-    const length = scene.times[3] - scene.times[0];
+    const times = timesOf(scene), length = times[3] - times[0];
     const step = event.shiftKey ? 0.001 : 0.01;
     // A step is a round number: of the unit, or of a control point's fraction.
     const stepped = (x, by, step) => tidy(Math.round(x / step + by) * step, 9);
     if (!by) t = limits(scene, i)[end];
     else if (i < 4) t = stepped(t, by[0] || by[1], 10 ** Math.floor(Math.log10(length * step) + 0.31));
     else if (by[1]) y = stepped(y, by[1], step);
-    else t = scene.times[0] + length * stepped(innerOf(scene)[INNER.indexOf(HANDLES[i])], by[0], step);
+    else t = times[0] + length * stepped(innerOf(scene)[INNER.indexOf(HANDLES[i])], by[0], step);
     const next = moved(scene, i, [t, y]);
     // A key that is held is one step.
     const told = this.graph.cursorAt(placeOf(next, i)[0]);
@@ -161,16 +162,17 @@ export class Handles {
   }
 
   // A place on the page as round numbers, or those of what is near.
-  snapped({ times }, i, map, [x, y], isFree) {
+  snapped(scene, i, map, [x, y], isFree) {
     const near = (value, perPixel, candidates, round) => {
       const found = isFree ? undefined : candidates.find((it) => Math.abs(it - value) < MAGNET * perPixel);
       return found ?? tidy(Math.round(value / round) * round, 9);
     };
     // Where the neighbours are, and 0 and 1.
+    const times = timesOf(scene);
     const beside = i < 4 ? [times[i - 1], times[i + 1]] : i < 6 ? times.slice(0, 2) : times.slice(2);
     const ends = beside.filter((t) => t !== undefined);
     const t = near(map.t(x), map.perPixel, ends, 10 ** Math.floor(Math.log10(map.perPixel)) * 2);
-    return [t, i < 4 ? placeOf({ times }, i)[1] : near(map.o(y), map.perPixelY, [0, 1], 0.01)];
+    return [t, i < 4 ? placeOf(scene, i)[1] : near(map.o(y), map.perPixelY, [0, 1], 0.01)];
   }
 
   /** Puts all handles where they belong. */

@@ -1,6 +1,6 @@
 // The page: draws the model, and changes it as a person asks.
 
-import { keys as KEYS, presets, repository as REPOSITORY } from 'presets';
+import { presets, repository as REPOSITORY } from 'presets';
 import { html, nothing, render } from 'lit-html';
 import { $, arrowed } from './dom.js';
 import { drawBar } from './bar.js';
@@ -10,9 +10,10 @@ import { drawForm, startForm } from './form.js';
 import { Graph, outline } from './graph.js';
 import { change, go, model, startModel, tell } from './model.js';
 import { drawPhoto } from './photo.js';
-import { FIELDS, edgeOf, fromScene, hash, toml } from './scene.js';
+import { FIELDS, KINDS, fromScene, hash, inUnit, originOf, perSecond, syncOf, toProgram, valueOf } from './scene.js';
 import { drawSpeeds } from './speeds.js';
 import { drawTicks } from './ticks.js';
+import { askProgram, inWords, known } from './told.js';
 import { drawTrace, openFiles, startTraces } from './trace.js';
 import { fileOf, loadEngine, viewOf } from './view.js';
 
@@ -23,7 +24,7 @@ let graph;
 const inSight = new Set();
 // What draws the model, each a part of the screen.
 const PARTS = [
-  drawState, (model) => graph.show(model), drawPhoto, drawPresets, (model) => drawFacts(model, graph.samples), drawForm,
+  drawState, askProgram, (model) => graph.show(model), drawPhoto, drawPresets, (model) => drawFacts(model, graph.samples), drawForm,
   drawTrace, drawSpeeds, drawExport, drawBar, (model) => inSight.has('ticks') && drawTicks(model),
 ];
 
@@ -56,9 +57,10 @@ function drawState({ now: { scene, trace }, pending, view, last, canUndo, canRed
 let offered;
 
 // The presets, each with its ramps, 60 by 24.
-function offer({ name, scene: it }) {
+function offer({ name, scene: it, told }) {
   const scene = fromScene(name, it), view = viewOf(scene).Ok, [start, , , end] = view.times;
   const place = ([t, y]) => `${(4 + (52 * (t - start)) / (end - start)).toFixed(1)} ${(21 - 18 * y).toFixed(1)}`;
+  known.set(scene, told);
   return { name, scene, address: hash({ scene }), path: `M0 21${outline(view, place)}H60` };
 }
 
@@ -129,7 +131,9 @@ async function begin() {
 }
 
 /** For tests and the curious. */
-globalThis.designer = { FIELDS, KEYS, edgeOf, model, hash, toml };
+globalThis.designer = {
+  FIELDS, KINDS, model, hash, inUnit, inWords, originOf, perSecond, syncOf, toProgram, valueOf,
+};
 
 const fallen = ({ message }) => `The page is not whole: ${message}. Load it again, in a browser with WebAssembly.`;
 begin().catch((error) => missing(fallen(error)));

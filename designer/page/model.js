@@ -15,6 +15,8 @@ export const model = {
   view: null, last: null, good: null,
   /** What is wrong: as the engine tells it, or a `reason`, with `id` where a field's text, or `isLink`, is none. */
   wrong: null,
+  /** What the program tells, in words, of a `scene`: its facts and doubts, or what is wrong. */
+  told: null,
   /** A time in seconds that is pointed at. */
   cursor: null,
   /** What is being computed: { words, share, cancel }. What came of the last file: { words, isWrong, act }. */

@@ -38,6 +38,7 @@ export function parse(text, kind = 'part', unit = 's') {
     return part && Number(part.replace(',', '.'));
   });
   const number = under ? first / second : first;
+  if (!Number.isFinite(number)) refuse('is beyond all numbers');
   if (kind === 'count' && !Number.isInteger(number)) refuse('is no whole number');
   const isTime = kind === 'time' || kind === 'dial';
   // A fraction without a unit is of a second; so is what a dial has, and a whole number on it is the part below 1.

@@ -2,14 +2,19 @@
 // its triggers.
 
 import { $, watch, write } from './dom.js';
-import { percents } from './facts.js';
 import { collected, shareAt } from './graph.js';
-import { STOPS } from './scene.js';
+import { STOPS, short } from './scene.js';
 
 const WIDTH = 480, RADIUS = 35, HEIGHT = 2 * RADIUS, FINE = 2;
 const BALL = [255, 238, 205], NIGHT = [13, 16, 24];
 // The steps of the ball's way.
 const STEPS = FINE * (WIDTH - HEIGHT);
+
+/** Doses in words: `50, 100 and 50 %`. */
+function percents(doses) {
+  const all = doses.map((dose) => short(100 * dose, 3));
+  return `${[all.slice(0, -1).join(', '), all.at(-1)].filter(Boolean).join(' and ')} %`;
+}
 
 // From linear light to the bytes of a picture.
 const SHADES = new Uint32Array(new Uint8ClampedArray(Array.from({ length: 1025 }, (_, i) => {
@@ -22,7 +27,8 @@ const HALVES = Array.from({ length: RADIUS }, (_, y) => Math.round(FINE * Math.s
 // When each flash begins and ends.
 function flashed({ times, marks, plan }) {
   if (!plan.Ok?.pulses.length) return marks.map(([t]) => [t, t]);
-  return plan.Ok.pulses.map((pulse) => pulse.map((ticks) => times[0] + ticks / plan.Ok.timer_hz));
+  const { pulses, early, hz } = plan.Ok;
+  return pulses.map((pulse) => pulse.map((ticks) => times[0] + (early + ticks) / hz));
 }
 
 function expose(light, most) {
@@ -54,7 +60,7 @@ function developed(scene, view) {
     if (next === n || t <= flashes[next][0]) return n && next / n;
     // A pulse lasts, and a shutter in the light's path dims it.
     const times = [...flashes[next], t];
-    const [from, to, now] = scene.duty === null ? times : times.map((t) => shareAt(list, t));
+    const [from, to, now] = scene.flashes.duty === null ? times : times.map((t) => shareAt(list, t));
     return (next + (now - from) / (to - from || 1)) / n;
   });
   const half = FINE * RADIUS;
@@ -66,11 +72,11 @@ function developed(scene, view) {
 const isNewPhoto = watch();
 
 export function drawPhoto({ now: { scene }, last: view }) {
-  const { triggers, measured, pulse, duty } = scene;
+  const { own, flashes: { triggers, pulse, duty } } = scene;
   $('flashes').value = STOPS.findLastIndex((n) => n <= triggers);
   $('flashes').setAttribute('aria-valuetext', `${triggers} flashes`);
   write($('flash-count'), String(triggers));
-  if (!view || !isNewPhoto(view, measured)) return;
+  if (!view || !isNewPhoto(view, own)) return;
   const pictures = developed(scene, view);
   for (const [i, id] of ['ideal', 'flashed'].entries()) $(id).getContext('2d').putImageData(pictures[i], 0, 0);
   const { marks: { length: n }, plan } = view;
@@ -79,5 +85,5 @@ export function drawPhoto({ now: { scene }, last: view }) {
   const dimmed = `, as if of equal light; through this shutter they give ${doses}`;
   write($('flash-caption'), what + (doses ? dimmed : n > 1 ? ' of equal light' : ''));
   const steady = 'this shutter, in steady light', told = 'this shutter, as its trace tells between the flashes';
-  write($('ideal-caption'), measured ? told : steady);
+  write($('ideal-caption'), own ? told : steady);
 }

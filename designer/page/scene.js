@@ -1,24 +1,28 @@
-// A scene's numbers: as an object, as the part of the address behind '#', and as TOML.
+// A scene as the program has it, with what the page knows beside; as a reader counts its times; as a link.
 
-import { keys as KEYS, units as UNITS } from 'presets';
+import { units as UNITS } from 'presets';
 
-/** The program's keys: the times, the ramps' control points, and what is set. */
-const RAMPS = KEYS.indexOf('shutteropening');
-export const TIMES = KEYS.slice(0, RAMPS), SETTINGS = KEYS.slice(RAMPS + 1);
+export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
-/** The numbers in the order of the engine's question. */
-export const NUMBERS = [...TIMES, ...INNER, ...SETTINGS];
-/** What is one of a few, in the engine's order; null is not said. */
-export const CHOICES = { set_up: ['emulated', 'in_path'], sync_falls: [false, true], fully_open: [false, true] };
-/** The numbers that have a field; those that are no times are of another kind. */
-export const FIELDS = NUMBERS.filter((key) => !CHOICES[key]);
-export const KINDS = { nominal: 'dial', triggers: 'count', timer_bits: 'count', timer_hz: 'rate', duty: 'part' };
+/** The program's keys, and of which kind their values are. */
+const SYNC = { delay: 'time', delay_spread: 'time', sync_falls: 'yes' };
+const SHUTTER = { ...SYNC, nominal: 'dial' };
+const FLASHES = {
+  triggers: 'count', min_gap: 'time', timer_hz: 'rate', timer_bits: 'count', set_up: ['emulated', 'in_path'],
+  pulse: 'time', duty: 'part', min_pulse: 'time', fully_open: 'yes', lamp_lag: 'time', ...SYNC,
+};
+export const KINDS = { ...FLASHES, ...SHUTTER };
+for (const key of TIMES) KINDS[key] = 'time';
 for (const key of INNER) KINDS[key] = 'part';
-const SPANS = SETTINGS.filter((key) => !CHOICES[key] && (!KINDS[key] || key === 'nominal'));
-const REQUIRED = ['triggers', 'min_gap'];
+/** What is one of a few. */
+export const CHOICES = { set_up: FLASHES.set_up, sync_falls: [false, true], fully_open: [false, true] };
+/** The numbers that have a field. */
+export const FIELDS = Object.keys(KINDS).filter((key) => !CHOICES[key]);
 export const LAMP = ['pulse', 'duty', 'min_pulse', 'fully_open'];
 /** What a person has given who gives a whole scene. */
-export const GIVEN = ['name', 'unit', 'lamp', ...SETTINGS.filter((key) => !LAMP.includes(key))];
+export const GIVEN = ['name', 'unit', 'lamp', ...Object.keys({ ...SHUTTER, ...FLASHES })];
+/** What a fit measures, in its own unit. */
+const MEASURED = ['exposure', 'exposure_error', 'delay_error', 'trigger_error', 'delay_worst'];
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
 /** A longer part of an address is no link of this page's. */
 const LONGEST = 60_000;
@@ -41,88 +45,147 @@ export function short(x, digits = 5) {
   return String(Number(x.toPrecision(digits)));
 }
 
-/** A scene as `shutter` keeps it, as an object of this page. Nobody has given any of its numbers yet. */
-export function fromScene(name, it) {
-  const [unit, times, inner] = [it.unit ?? 's', TIMES.map((key) => it[key]), it.shutteropening ?? null];
-  const scene = { name, unit, times, inner, measured: null, doubts: [], untold: null, given: [] };
-  for (const key of SETTINGS) scene[key] = it[key] ?? null;
-  if (it.unit) return scene;
-  // Without a unit, the largest that the interval has at least one of.
-  const length = times[3] - times[0];
+/** All of a table, in the order of the program. */
+const whole = (table, keys) => Object.fromEntries(keys.map((key) => [key, table[key] ?? null]));
+
+/**
+ * The program's scene as one of this page: { name, unit, shutter, flashes }, all times in its unit; `own`, the triggers
+ * of a trace that its curve does not explain; `untold`, why nothing is to be taken away; and which keys are `given`.
+ */
+export function fromScene(name, { shutter, flashes }) {
+  const unit = shutter.unit ?? flashes.unit;
+  const keys = [...TIMES, 'shutteropening', ...Object.keys(SHUTTER), 'measured'];
+  const scene = { name, unit: unit ?? 's', shutter: whole(shutter, keys), flashes: whole(flashes, Object.keys(FLASHES)),
+    own: null, untold: null, given: [] };
+  // Of two units, that of the shutter.
+  if (flashes.unit && flashes.unit !== unit) scene.flashes = inUnit({ ...scene, unit: flashes.unit }, unit).flashes;
+  if (unit) return scene;
+  // Without one, the largest that the interval has at least one of.
+  const length = shutter.close_end - shutter.open_start;
   return inUnit(scene, UNITS.find((unit) => length * perSecond(unit) >= 1) ?? 'ns');
+}
+
+/** The scene as the program takes it. */
+export function toProgram({ unit, shutter, flashes, own }) {
+  const { nominal, delay, delay_spread, sync_falls, measured } = shutter;
+  const of = own ? { ...own, nominal, delay, delay_spread, sync_falls, measured } : shutter;
+  return { shutter: { unit, ...of }, flashes: { unit, ...flashes } };
 }
 
 /** The same scene with its times in another unit. */
 export function inUnit(scene, unit) {
-  const by = UNITS.indexOf(unit) - UNITS.indexOf(scene.unit);
-  const factor = 1000 ** Math.abs(by);
+  const by = UNITS.indexOf(unit) - UNITS.indexOf(scene.unit), factor = 1000 ** Math.abs(by);
+  if (!by) return scene;
   const convert = (x) => (x == null ? x : tidy(by < 0 ? x / factor : x * factor));
-  const { times, measured } = scene;
-  const converted = { ...scene, unit, times: times.map(convert), measured: measured?.map(convert) ?? null };
-  for (const key of SPANS) converted[key] = convert(scene[key]);
-  return converted;
+  const all = (table, keys) => ({ ...table, ...Object.fromEntries(keys.map((key) => [key, convert(table[key])])) });
+  const isTime = ([, kind]) => kind === 'time' || kind === 'dial';
+  const spans = (keys) => Object.entries(keys).filter(isTime).map(([key]) => key);
+  const { shutter, own } = scene, { measured } = shutter;
+  return {
+    ...scene, unit, flashes: all(scene.flashes, spans(FLASHES)),
+    shutter: {
+      ...all(shutter, [...TIMES, ...spans(SHUTTER)]),
+      measured: measured && { ...all(measured, MEASURED.filter((key) => measured[key] != null)), unit },
+    },
+    own: own && { open_start: convert(own.open_start), trigger_times: own.trigger_times.map(convert) },
+  };
 }
 
 /** Are two scenes of the same shutter, at the same times? */
-export function isSamePlace(a, b) {
-  const shape = (scene) => {
-    const { times, inner, measured } = inUnit(scene, 'ns');
-    return String([times, inner, measured]);
-  };
-  return shape(a) === shape(b);
-}
-
-/** Are they of the same shutter, be one later than the other? */
 export function isSameShape(a, b) {
-  const { times, measured, inner } = inUnit(b, a.unit);
-  const room = 1e-9 * (a.times[3] - a.times[0]);
-  const isNear = (t, i) => Math.abs(t - a.times[i] - times[0] + a.times[0]) <= room;
-  return times.every(isNear) && String([a.inner, a.measured]) === String([inner, measured]);
+  const shape = ({ shutter, own }) => JSON.stringify([...TIMES.map((key) => shutter[key]), shutter.shutteropening, own]);
+  return shape(inUnit(a, 'ns')) === shape(inUnit(b, 'ns'));
 }
 
-/** From where its triggers' delay counts, in the scene's unit. */
-const opensAt = ({ measured, times }) => (measured ? 0 : times[0]);
+/** What the scene tells of its sync: what a person does, in place of what its trace does. */
+export function syncOf({ shutter, flashes }) {
+  const traced = flashes.delay === null ? shutter : {};
+  return Object.fromEntries(Object.keys(SYNC).map((key) => [key, flashes[key] ?? traced[key] ?? null]));
+}
 
-/** The time of the sync's edge in a scene that knows it, else null. */
-export const edgeOf = (scene) => (scene.delay === null ? null : tidy(opensAt(scene) - scene.delay));
+/** From where times are counted: from the sync's edge where that is known, or as the scene does. */
+export function originOf(scene) {
+  const { delay } = syncOf(scene), opens = (scene.own ?? scene.shutter).open_start;
+  return delay === null ? 0 : opens - delay;
+}
+
+/** The same in seconds. */
+export const originSeconds = (scene) => originOf(scene) / perSecond(scene.unit);
+
+/** The curve's times, counted from there. */
+export function timesOf(scene) {
+  const origin = originOf(scene);
+  return TIMES.map((key) => tidy(scene.shutter[key] - origin));
+}
 
 /** The inner control points; those of straight ramps where the scene has none. */
-export function innerOf(scene) {
-  return scene.inner ?? placed(STRAIGHT, scene.times);
-}
+export const innerOf = (scene) => scene.shutter.shutteropening ?? placed(STRAIGHT, timesOf(scene));
 
 /**
- * The scene with a shutter that is drawn: what was measured, and what was doubtful about that, is another's. The edge
- * of the sync stands still.
+ * The scene with a shutter that is drawn: what was measured, and what was doubtful about that, is another's. The edge of
+ * the sync stands still, so the delay ends at the new opening.
  */
 export function withShape(scene, times, inner) {
-  const doubts = scene.doubts.filter(({ about }) => about === 'delay'), edge = edgeOf(scene);
-  const delay = edge === null ? null : tidy(times[0] - edge);
-  return { ...scene, times, inner, delay, measured: null, untold: null, doubts };
-}
-
-/** The scene with the shutter that was fitted. The edge of the sync stands still. */
-export function asFitted(scene, { times, inner, measured, untold, doubts }) {
-  const edge = edgeOf(scene), delay = edge === null ? null : tidy(opensAt({ times, measured }) - edge);
-  return { ...scene, times, inner, delay, measured, untold, doubts, ...(measured && { triggers: measured.length }) };
+  const origin = originOf(scene), { shutter, flashes } = scene;
+  const told = TIMES.map((key, i) => [key, tidy(times[i] + origin)]);
+  const drawn = { ...shutter, ...Object.fromEntries(told), shutteropening: inner, measured: null };
+  const next = { ...scene, shutter: drawn, own: null, untold: null };
+  if (flashes.delay !== null) next.flashes = { ...flashes, delay: times[0] };
+  else if (shutter.delay !== null) drawn.delay = times[0];
+  return next;
 }
 
 /** The scene with other inner control points. */
-export const withInner = (scene, inner) => withShape(scene, scene.times, inner);
+export const withInner = (scene, inner) => withShape(scene, timesOf(scene), inner);
 
-/**
- * The scene with another delay. The edge of the sync stands still, and the curve moves; where none is known yet, this
- * says where it is. Without a delay there is no edge to tell of.
- */
-export function withDelay(scene, delay) {
-  const doubts = scene.doubts.filter(({ about }) => about !== 'delay');
-  if (delay === null) return { ...scene, delay, delay_spread: null, sync_falls: null, doubts };
-  const by = scene.delay === null || scene.measured ? 0 : delay - scene.delay;
-  const times = by ? scene.times.map((t) => tidy(t + by)) : scene.times;
-  return { ...scene, times, delay, doubts };
+/** The scene with other times, each ramp keeping its shape. */
+export function withTimes(scene, times) {
+  const isSound = times.every(Number.isFinite) && times[3] > times[0], inner = scene.shutter.shutteropening;
+  return withShape(scene, times, inner && isSound ? placed(relative(inner, timesOf(scene)), times) : inner);
 }
 
-export function lampOf({ pulse, duty, fully_open }) {
+/** The scene with the shutter of a fit; the edge of the sync stands still. */
+export function asFitted(scene, { shutter, own, untold }) {
+  const next = { ...scene, shutter: { ...shutter, nominal: scene.shutter.nominal }, own, untold };
+  const delay = scene.flashes.delay === null ? null : tidy((own ?? shutter).open_start - originOf(scene));
+  const triggers = own ? own.trigger_times.length : scene.flashes.triggers;
+  return { ...next, flashes: { ...scene.flashes, delay, triggers } };
+}
+
+/** The value of a field. */
+export function valueOf(scene, id) {
+  const i = TIMES.indexOf(id), k = INNER.indexOf(id);
+  if (i >= 0) return timesOf(scene)[i];
+  if (k >= 0) return innerOf(scene)[k];
+  return id in SYNC ? syncOf(scene)[id] : (scene[id in FLASHES ? 'flashes' : 'shutter'][id] ?? null);
+}
+
+/**
+ * The scene with other values of fields, but the curve's. A delay that is typed is a person's own: it goes in place of
+ * the trace's, and the times, which count from the edge, follow it. Without one there is no edge to tell of.
+ */
+export function withValues(scene, values) {
+  let { shutter, flashes } = scene;
+  for (const [key, value] of Object.entries(values)) {
+    if (key === 'delay') {
+      const { sync_falls, delay_spread } = syncOf({ shutter, flashes });
+      const none = { delay: null, delay_spread: null, sync_falls: null };
+      const { measured } = shutter;
+      // What a trace tells stays beside what counts.
+      if (!measured || value === null) shutter = { ...shutter, ...none };
+      if (measured && value === null) {
+        const { sync, delay_error, trigger_error, delay_worst, shots, ...rest } = measured;
+        shutter.measured = rest;
+      }
+      const kept = { sync_falls, delay_spread: measured ? flashes.delay_spread : delay_spread };
+      flashes = { ...flashes, ...(value === null ? none : kept), delay: value };
+    } else if (key in FLASHES) flashes = { ...flashes, [key]: value };
+    else shutter = { ...shutter, [key]: value };
+  }
+  return { ...scene, shutter, flashes };
+}
+
+export function lampOf({ flashes: { pulse, duty, fully_open } }) {
   return pulse !== null ? 'pulse' : duty !== null ? 'duty' : fully_open ? 'full' : '';
 }
 
@@ -146,25 +209,22 @@ function placed(parts, times) {
   });
 }
 
-/** The scene with other times, each ramp keeping its shape. */
-export function withTimes(scene, times) {
-  const isSound = times.every(Number.isFinite) && times[3] > times[0];
-  const { inner } = scene;
-  return withShape(scene, times, inner && isSound ? placed(relative(inner, scene.times), times) : inner);
-}
+/** In a link, a key of both tables is that of the shutter, and the other's has a name of its own. */
+const inLink = (key) => (key in SHUTTER ? `own_${key}` : key);
 
 /** The scene as the part of an address behind '#', with a table of speeds beside it if there is one. */
 export function hash({ scene, speeds }) {
-  const { name, unit, times, inner, measured, doubts, untold } = scene;
-  const part = (key, value) => `${key}=${encodeURIComponent(value)}`;
-  const parts = [part('name', name), part('unit', unit === 'µs' ? 'us' : unit), `times=${times}`];
-  if (inner) parts.push(`inner=${inner}`);
-  for (const key of SETTINGS) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
-  if (measured) parts.push(`measured=${measured}`);
-  for (const { about, text } of doubts) parts.push(part('doubt', `${about}: ${text}`));
-  if (untold) parts.push(part('untold', untold));
-  if (speeds) parts.push(part('speeds', JSON.stringify(speeds)));
-  return '#' + parts.join('&');
+  const { name, unit, shutter, flashes, own, untold } = scene, { measured } = shutter;
+  const told = {
+    name, unit: unit === 'µs' ? 'us' : unit, times: TIMES.map((key) => shutter[key]), inner: shutter.shutteropening,
+    ...whole(shutter, Object.keys(SHUTTER)),
+    ...Object.fromEntries(Object.keys(FLASHES).map((key) => [inLink(key), flashes[key]])),
+    triggers_at: own && [own.open_start, ...own.trigger_times], trace: measured && JSON.stringify(measured), untold,
+    speeds: speeds && JSON.stringify(speeds),
+  };
+  const parts = Object.entries(told).filter(([, value]) => value != null);
+  // A list stays one that can be read.
+  return `#${parts.map(([key, it]) => `${key}=${Array.isArray(it) ? it : encodeURIComponent(it)}`).join('&')}`;
 }
 
 /** What such a part of an address holds; an error says what is wrong. */
@@ -178,17 +238,19 @@ export function fromAddress(text) {
   return { scene: fromParts(parts), speeds };
 }
 
+const isNumber = (x) => Number.isFinite(x) && x >= 0;
+
 function isSpeed(it) {
   const words = [it?.name, it?.kind, ...(it?.doubts ?? [null])];
-  const numbers = [it?.exposure, it?.error, it?.scatter, it?.pulses];
   const isDial = it?.dial == null || (it.dial > 0 && it.dial < Infinity);
-  return isDial && words.every((it) => typeof it === 'string') && numbers.every((x) => Number.isFinite(x) && x >= 0);
+  const numbers = [it?.exposure, it?.error, it?.scatter, it?.pulses];
+  return isDial && words.every((it) => typeof it === 'string') && numbers.every(isNumber);
 }
 
-// `exposure: clipped`: what is doubtful, and about which number.
-function fromDoubt(words) {
-  const [, about, text] = /^(?:(\w+): )?(.*)$/s.exec(words);
-  return { about: about ?? 'exposure', text };
+function isMeasured({ trace, model, efficiency, unit, warnings, ...rest }) {
+  const isWord = (it) => typeof it === 'string';
+  return [trace, model, efficiency, ...(warnings ?? [])].every(isWord) && UNITS.includes(unit)
+    && isNumber(rest.exposure) && isNumber(rest.exposure_error);
 }
 
 function fromParts(parts) {
@@ -196,47 +258,38 @@ function fromParts(parts) {
     if (!is) throw new Error(`${key}: ${what} required`);
   };
   const numbers = (key, count) => {
-    const list = (parts.get(key) ?? '').split(',').map((x) => (x.trim() ? Number(x) : NaN));
+    const list = parts.get(key).split(',').map((x) => (x.trim() ? Number(x) : NaN));
     require(key, `${count} numbers are`, !count || list.length === count);
-    require(key, 'a number is', !list.some(Number.isNaN));
+    require(key, 'a number is', list.every(Number.isFinite));
     return list;
+  };
+  const value = (name, kind) => {
+    if (!parts.has(name)) return null;
+    const all = kind === 'yes' ? [false, true] : kind, text = parts.get(name);
+    const found = Array.isArray(all) ? all.find((it) => String(it) === text) : numbers(name, 1)[0];
+    require(name, Array.isArray(all) ? `${all.join(' or ')} is` : 'a number is', found !== undefined);
+    require(name, 'a whole number is', kind !== 'count' || Number.isInteger(found));
+    return found;
   };
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   require('unit', 's, ms, us or ns is', UNITS.includes(unit));
+  for (const key of ['times', 'triggers']) require(key, 'it is', parts.has(key));
+  const times = numbers('times', 4), measured = parts.has('trace') ? JSON.parse(parts.get('trace')) : null;
+  require('trace', 'what a fit found is', !measured || isMeasured(measured));
+  const table = (kinds, name) =>
+    Object.fromEntries(Object.entries(kinds).map(([key, kind]) => [key, value(name(key), kind)]));
   const scene = {
-    name: (parts.get('name') ?? '').slice(0, 60) || 'linked', unit, times: numbers('times', 4),
-    inner: parts.has('inner') ? numbers('inner', 8) : null,
-    measured: parts.has('measured') ? numbers('measured') : null,
-    doubts: parts.getAll('doubt').map(fromDoubt), untold: parts.get('untold'), given: GIVEN,
+    name: (parts.get('name') ?? '').slice(0, 60) || 'linked', unit,
+    shutter: {
+      ...Object.fromEntries(TIMES.map((key, i) => [key, times[i]])),
+      shutteropening: parts.has('inner') ? numbers('inner', 8) : null, ...table(SHUTTER, (key) => key), measured,
+    },
+    flashes: table(FLASHES, inLink), own: null, untold: parts.get('untold'), given: GIVEN,
   };
-  for (const key of SETTINGS) {
-    const all = CHOICES[key], is = REQUIRED.includes(key) || parts.has(key);
-    scene[key] = !is ? null : all ? all.find((it) => String(it) === parts.get(key)) : numbers(key, 1)[0];
-    require(key, `${all?.join(' or ')} is`, scene[key] !== undefined);
-    require(key, 'a whole number is', !is || KINDS[key] !== 'count' || Number.isInteger(scene[key]));
+  if (parts.has('triggers_at')) {
+    const [open_start, ...trigger_times] = numbers('triggers_at'), n = scene.flashes.triggers;
+    require('triggers_at', `${n} times, one for each trigger, are`, trigger_times.length === n);
+    scene.own = { open_start, trigger_times };
   }
-  const { measured, triggers } = scene;
-  require('measured', `${triggers} times, one for each trigger, are`, !measured || measured.length === triggers);
   return scene;
-}
-
-/** What is doubtful about a scene, as comments. */
-export const warnings = ({ doubts }) => doubts.map(({ text }) => `# Warning: ${text.replace(/\s+/g, ' ')}\n`).join('');
-
-const inToml = (x) => (Math.abs(x) >= 1e15 ? x.toExponential().replace('Infinity', 'inf') : JSON.stringify(x));
-/** What is to be fired, in a table of its own. */
-const FLASHES = SETTINGS.filter((key) => key !== 'nominal');
-const array = (numbers) => `[${numbers.map(inToml).join(', ')}]`;
-
-/** The scene as the text that `shutter plan` reads: by its curve, or by the times that a trace tells. */
-export function toml(scene) {
-  const { name, unit, times, inner, measured } = scene;
-  const entries = [['unit', `"${unit}"`], ...TIMES.map((key, i) => [key, inToml(times[i])])];
-  if (measured) entries.splice(1, 4, ['open_start', 0], ['trigger_times', array(measured)]);
-  else if (inner) entries.push(['shutteropening', array(inner)]);
-  const isTold = (key) => scene[key] !== null && !(measured && key === 'triggers');
-  entries.push(...SETTINGS.filter(isTold).map((key) => [key, inToml(scene[key])]));
-  const table = (is) => entries.filter(([key]) => is(key)).map(([key, value]) => `${key} = ${value}\n`).join('');
-  const head = `# ${name.replace(/[^\x20-\x7e]/g, '_')}\n${warnings(scene)}`;
-  return `${head}[shutter]\n${table((key) => !FLASHES.includes(key))}\n[flashes]\n${table((key) => FLASHES.includes(key))}`;
 }

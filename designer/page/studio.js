@@ -1,24 +1,28 @@
-// Asks the workers: one each writes forms, opens scenes and fits. The newest question counts.
+// Asks the workers: one tells of scenes and writes forms, the other fits. Of each kind the newest question counts.
 
-import { toml } from './scene.js';
+import { toProgram } from './scene.js';
 import { fileOf } from './view.js';
 
 class Asked {
-  // The question that is asked, and the newest of those that wait.
-  ask(question, payload, progress) {
+  waiting = new Map();
+
+  // The question that is asked, and the newest that waits of each kind.
+  ask(kind, words, payload, progress) {
     return new Promise((resolve) => {
-      this.waiting?.resolve();
-      this.waiting = { question, payload, progress, resolve };
+      this.waiting.get(kind)?.resolve();
+      this.waiting.set(kind, { kind, words, payload, progress, resolve });
       this.next();
     });
   }
 
   next() {
-    if (this.asked || !this.waiting) return;
-    [this.asked, this.waiting] = [this.waiting, null];
+    const [[first, question] = []] = this.waiting;
+    if (this.asked || !question) return;
+    this.waiting.delete(first);
+    this.asked = question;
     this.worker ??= this.started();
-    const { question, payload } = this.asked;
-    this.worker.postMessage({ question: JSON.stringify(question), payload });
+    const { kind, words, payload } = question;
+    this.worker.postMessage({ kind, words, payload });
   }
 
   started() {
@@ -47,14 +51,16 @@ class Asked {
   }
 }
 
-const [forms, scenes, fits] = [new Asked(), new Asked(), new Asked()];
+const [scenes, fits] = [new Asked(), new Asked()];
+const json = (scene) => JSON.stringify(toProgram(scene));
 
 /** The answers are `{ Ok }` or `{ Err }`; nothing if something newer came first. */
-export const emitForm = (scene, form) => forms.ask({ ask: 'emit', name: scene.name, scene: toml(scene), form });
-export const parseScene = (name, text) => scenes.ask({ ask: 'scene', name, scene: text });
+export const tellScene = (scene) => scenes.ask('tell', [json(scene)]);
+export const emitForm = (scene, form) => scenes.ask('emit', [scene.name, json(scene), JSON.stringify(form)]);
+export const openScene = (name, text) => scenes.ask('open', [name, text]);
 export function fitTrace(name, asked, file, progress) {
   cancelFit();
-  return fits.ask({ ask: 'fit', name, asked }, file, progress);
+  return fits.ask('fit', [name, JSON.stringify(asked)], file, progress);
 }
 
 /** Ends the fit that is computed. */

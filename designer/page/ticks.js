@@ -2,7 +2,7 @@
 
 import { html, nothing, render } from 'lit-html';
 import { $, watch } from './dom.js';
-import { doubt, rounding } from './facts.js';
+import { doubt, doubtsOf } from './facts.js';
 import { perSecond } from './scene.js';
 
 /** Longer tables lose their middle. */
@@ -13,10 +13,11 @@ const isNewTicks = watch();
 let tickRows = [];
 
 /** As the CSV has it, in the scene's unit. Of a draft, as while a handle is dragged, only rows in sight are written. */
-export function drawTicks({ now: { scene: { unit, timer_hz } }, view, isDraft }) {
-  const plan = view?.plan.Ok;
-  if (!plan || !isNewTicks(view, unit, isDraft)) return;
-  const { pulses, delay, early, ticks } = plan, { marks } = view;
+export function drawTicks(model) {
+  const { now: { scene: { unit, flashes: { timer_hz } } }, view, isDraft } = model;
+  const plan = view?.plan.Ok, coarse = doubtsOf(model).find(({ about }) => about === 'timer')?.text;
+  if (!plan || !isNewTicks(view, unit, isDraft, coarse)) return;
+  const { pulses, delay, ticks } = plan, { marks } = view;
   const n = marks.length, hidden = Math.max(0, n - MOST_ROWS), per = perSecond(unit);
   const box = $('ticks').parentElement, row = box.scrollHeight / (n - hidden + 1);
   const places = Math.min(12, Math.max(0, 5 - Math.floor(Math.log10(Math.abs(marks.at(-1)[0] * per)))));
@@ -28,7 +29,7 @@ export function drawTicks({ now: { scene: { unit, timer_hz } }, view, isDraft })
     ...(timer_hz === null ? [] : [
       ['ticks', (i) => ticks[i]], ['gap', (i) => (i ? ticks[i] - ticks[i - 1] : '–')],
       ...(delay === null ? [] : [['from sync', (i) => delay + ticks[i]]]),
-      ...(pulses.length ? [['on', (i) => pulses[i][0] - early], ['off', (i) => pulses[i][1] - early]] : []),
+      ...(pulses.length ? [['on', (i) => pulses[i][0]], ['off', (i) => pulses[i][1]]] : []),
     ]),
   ];
   const written = tickRows.length === n - hidden && tickRows;
@@ -39,6 +40,6 @@ export function drawTicks({ now: { scene: { unit, timer_hz } }, view, isDraft })
   });
   const heads = columns.map(([name]) => html`<th scope="col">${name}</th>`);
   const many = hidden ? `without ${hidden} in the middle; the CSV has all` : n;
-  render([many, plan.coarse ? doubt(rounding(plan)) : nothing], $('ticks-note'));
+  render([many, coarse ? doubt(coarse) : nothing], $('ticks-note'));
   render(html`<thead><tr>${heads}</tr></thead><tbody>${tickRows}</tbody>`, $('ticks'));
 }

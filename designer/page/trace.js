@@ -6,10 +6,10 @@ import { change, model, tell } from './model.js';
 import { taken } from './numbers.js';
 import { units as UNITS } from 'presets';
 import {
-  GIVEN, LAMP, SETTINGS, fromScene, inUnit, isCount, isSamePlace, isSameShape, perSecond, short, tidy,
+  GIVEN, LAMP, fromScene, inUnit, isCount, isSameShape, originOf, perSecond, short, syncOf, tidy,
 } from './scene.js';
 import { drawRecord, whole } from './record.js';
-import { cancelFit, fitTrace, parseScene } from './studio.js';
+import { cancelFit, fitTrace, openScene as parseScene } from './studio.js';
 
 /** Longer files are not read: a trace would fill the page's memory. */
 const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
@@ -18,8 +18,6 @@ const MEND = {
   rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', light: 'Say which way',
   full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose its channel',
 };
-
-const OF_SYNC = ['delay', 'delay_spread', 'sync_falls'];
 
 /** The file of each row of the table, in this visit: two may have one name. */
 export const rowFiles = new WeakMap();
@@ -98,7 +96,7 @@ async function fitted(busy, file, asked) {
 
 /** Reads the trace in a file as is asked for, and fits it for so many triggers, or for as many as the scene has. */
 export async function readTrace(file, asked, wanted) {
-  const there = () => (isCount(model.now.scene.triggers) ? model.now.scene.triggers : 12);
+  const there = () => [model.now.scene.flashes.triggers].find(isCount) ?? 12;
   const triggers = wanted ?? there();
   const shown = model.now.trace, isSame = shown?.file === file, isSameReading = isSame && asked === shown.asked;
   const before = model.now.scene, former = [model.pending, shown].find((it) => it?.file === file);
@@ -115,13 +113,13 @@ export async function readTrace(file, asked, wanted) {
   tell({ busy: null });
   const give = () => {
     const name = file.name.replace(/\.\w+$/, '');
-    const scene = withFit({ ...model.now.scene, triggers }, name, fit, isSame, isSameReading);
+    const scene = withFit(model.now.scene, triggers, name, fit, isSame, isSameReading);
     change({ scene, trace: { ...read, fit, scene }, speeds: null });
   };
   // What a hand has moved on this trace is not taken away unasked, nor what it moves meanwhile.
-  const isNow = isSamePlace(before, model.now.scene);
-  const isHand = isSame && !isSameReading && (!isSamePlace(shown.scene, before)
-    || (fit.scene.delay != null && inUnit(shown.scene, before.unit).delay !== model.now.scene.delay));
+  const isNow = isSameShape(before, model.now.scene), delay = (scene) => syncOf(inUnit(scene, 'ns')).delay;
+  const isHand = isSame && !isSameReading && (!isSameShape(shown.scene, before)
+    || (fit.shutter.delay !== null && delay(shown.scene) !== delay(model.now.scene)));
   if (isNow && !isHand) give();
   else {
     const words = `${file.name} is fitted; the curve was changed ${isNow ? 'by hand before' : 'meanwhile'}.`;
@@ -130,28 +128,24 @@ export async function readTrace(file, asked, wanted) {
 }
 
 /**
- * The shutter of a fit to a trace. Of the scene before there stays what a person gave; its name, its nominal speed and
- * the delay of its sync are another shutter's, unless the same trace was read otherwise.
+ * The scene with the shutter of a fit. Of what was there stays what a person gave for the flashes; a name, a nominal
+ * speed and a delay are another shutter's, unless the same trace was read otherwise.
  */
-function withFit(scene, name, fit, isSame, isSameReading) {
-  const found = fromScene(name, fit.scene);
-  const { given, triggers } = scene;
-  const unit = given.includes('unit') ? scene.unit : found.unit, per = perSecond(unit);
+function withFit(scene, triggers, name, fit, isSame, isSameReading) {
+  const { given } = scene, found = fromScene(name, { shutter: fit.curve, flashes: {} });
+  const unit = given.includes('unit') ? scene.unit : found.unit;
   const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
-  const isSynced = fresh.delay !== null && !isSameReading;
-  const stays = (key) => given.includes(LAMP.includes(key) ? 'lamp' : key)
-    && (isSame || !['name', 'nominal', ...OF_SYNC].includes(key)) && !(isSynced && OF_SYNC.includes(key));
-  for (const key of ['name', ...SETTINGS].filter(stays)) fresh[key] = old[key];
-  Object.assign(fresh, { triggers, given: [...given, 'name'], doubts: doubtsOf(fit) });
-  if (fit.own) {
-    const { times, timer_hz, until_curve } = fit.own;
-    if (!given.includes('timer_hz')) fresh.timer_hz = timer_hz;
-    fresh.times = fresh.times.map((t) => tidy(t + until_curve * per, 9));
-    fresh.measured = times.map((t) => tidy(t * per));
-    for (const key of LAMP) fresh[key] = null;
-  } else if (!fit.json.fit.explained) {
-    fresh.untold = 'no curve explains this trace, and its own triggers could not be told';
-  }
+  const { open_start, trigger_times } = fit.shutter, is = (key) => given.includes(LAMP.includes(key) ? 'lamp' : key);
+  const isOld = (key) => is(key) && (!(key in syncOf(old)) || isSameReading || (isSame && fit.shutter.delay === null));
+  for (const key of Object.keys(fresh.flashes).filter(isOld)) fresh.flashes[key] = old.flashes[key];
+  if (isSame && is('name')) fresh.name = old.name;
+  if (isSame && is('nominal')) fresh.shutter.nominal = old.shutter.nominal;
+  fresh.flashes.triggers = triggers;
+  fresh.given = [...new Set([...given, 'name'])];
+  if (trigger_times) {
+    fresh.own = inUnit({ ...found, own: { open_start, trigger_times } }, unit).own;
+    for (const key of LAMP) fresh.flashes[key] = null;
+  } else if (!fit.explained) fresh.untold = 'no curve explains this trace, and its own triggers could not be told';
   return fresh;
 }
 
@@ -165,10 +159,10 @@ async function measure(files) {
     const fit = answer.Ok?.fit.Ok;
     const row = { name: file.name, exposure: 0, error: 0, scatter: 0, pulses: 0, dial: null, doubts: [] };
     if (fit) {
-      row.kind = fit.own ? 'the trace itself' : fit.kind;
-      row.doubts = doubtsOf(fit).map(({ text }) => text);
-      const { exposure_s, exposure_error_s, pulses } = fit.json;
-      const told = { exposure: exposure_s, error: exposure_error_s, scatter: fit.scatter, pulses };
+      row.kind = fit.shutter.trigger_times ? 'the trace itself' : fit.kind;
+      row.doubts = fit.warnings.map(({ text }) => text);
+      const { exposure_s, exposure_error_s, scatter, pulses } = fit;
+      const told = { exposure: exposure_s, error: exposure_error_s, scatter, pulses };
       for (const [key, x] of Object.entries(told)) row[key] = tidy(x, 6);
     } else row.kind = `not measured: ${(answer.Err ?? answer.Ok.fit.Err.text).split('\n')[0]}`;
     rowFiles.set(row, file);
@@ -178,17 +172,11 @@ async function measure(files) {
   change({ speeds });
 }
 
-/** What is doubtful about a fit, and about which number. */
-function doubtsOf({ json: { fit: { tested } }, warnings }) {
-  const untested = { about: 'test', text: 'there is too little dark to know the noise by' };
-  return [...(tested ? [] : [untested]), ...warnings.map(({ text, about }) => ({ text, about }))];
-}
-
 const isNewTrace = watch();
 
 /** Draws how the model's trace is read. */
 export function drawTrace({ now: { scene, trace }, pending }) {
-  const { unit, triggers } = scene;
+  const { unit, flashes: { triggers } } = scene;
   const isHand = trace && !isSameShape(trace.scene, scene);
   if (!isNewTrace(trace, pending, unit, triggers, isHand)) return;
   render(panel(pending ?? trace, trace, pending, isHand, scene), $('trace'));
@@ -266,9 +254,9 @@ function readingForm({ file, asked, record, measured: { names, read }, fit }) {
     const chosen = ['time', 'signal'].map((name) => fields.querySelector(`[name=${name}]`).value);
     return { columns: chosen.filter(Boolean).map(Number) };
   };
-  const way = fit ? `${fit.json.light_lowers ? 'falls' : 'rises'}, by itself` : 'as it seems';
+  const way = fit ? `${fit.light_lowers ? 'falls' : 'rises'}, by itself` : 'as it seems';
   const rate = asked.rate ?? (read?.clock.rate && tidy(read.clock.rate, 7));
-  const all = fit?.json.pulses, pulses = Math.min(all ?? asked.frame ?? 1, 200);
+  const all = fit?.pulses, pulses = Math.min(all ?? asked.frame ?? 1, 200);
   const frames = Array.from({ length: pulses }, (_, i) => [i + 1, `${i + 1} of ${all ?? '?'}`]);
   return html`${drawRecord(record, asked, unit, (from, to) => again({ from, to }))}
     <fieldset class="reading"><legend class="sr">How the file is read</legend>
@@ -285,15 +273,15 @@ function readingForm({ file, asked, record, measured: { names, read }, fit }) {
     ${number(`to, ${unit}`, 'to', 'time', asked.to, 'the end', perSecond(unit))}
     ${number('signal of full light', 'full', 'part', asked.full, 'the peak')}
     ${all > 1 || asked.frame
-      ? choice('pulse', 'frame', frames, asked.frame ?? fit.json.pulse, (it) => ({ frame: Number(it) })) : nothing}
+      ? choice('pulse', 'frame', frames, asked.frame ?? fit.pulse, (it) => ({ frame: Number(it) })) : nothing}
   </fieldset>`;
 }
 
-function details({ triggers: told, own, report }, { unit, triggers }) {
-  const per = perSecond(unit);
-  const lines = told.map(([t, error], i) => `${i}  ${short(t * per, 7)} ± ${short(error * per, 2)}`);
-  const head = `#  ${unit} after the start of opening, with standard error`;
-  const summary = `The ${told.length} times by the ${own ? 'trace' : 'curve'}, with their errors`;
+function details({ triggers: told, shutter, report }, scene) {
+  const { unit, flashes: { triggers } } = scene, per = perSecond(unit), origin = originOf(scene);
+  const lines = told.map(([t, error], i) => `${i}  ${short(t * per - origin, 7)} ± ${short(error * per, 2)}`);
+  const head = `#  ${unit}${syncOf(scene).delay === null ? '' : ' after the edge of the sync'}, with standard error`;
+  const summary = `The ${told.length} times by the ${shutter.trigger_times ? 'trace' : 'curve'}, with their errors`;
   const text = (id, summary, text) =>
     html`<details id=${id}><summary>${summary}</summary><pre tabindex="0">${text}</pre></details>`;
   const times = text('times', summary, [head, ...lines].join('\n'));

@@ -1,74 +1,58 @@
 // The crate as WebAssembly, for what follows the mouse.
 
-import { codes as CODES, keys as KEYS, units as UNITS } from 'presets';
-import { CHOICES, INNER, NUMBERS, TIMES } from './scene.js';
+import init, { Question } from 'engine';
+import { originSeconds, toProgram } from './scene.js';
 
 /** The address of a file beside this script. */
 export const fileOf = (name) => new URL(name, import.meta.url);
 
-/** A plan's numbers in the engine's order; null is none. */
-const PLAN = ['timer_hz', 'early', 'delay', 'most', 'closest', 'min_gap', 'half_open', 'drift', 'coarse'];
+export const loadEngine = () => init({ module_or_path: fileOf('engine.wasm') });
 
-let engine;
-let exports;
-
-export async function loadEngine() {
-  engine = await WebAssembly.compileStreaming(fetch(fileOf('engine.wasm')));
-  await instantiate();
-}
-
-async function instantiate() {
-  exports = (await WebAssembly.instantiate(engine, {})).exports;
-}
-
-// A scene's number by its key; NaN for none.
-function numberOf(scene, key) {
-  const i = TIMES.indexOf(key), k = INNER.indexOf(key);
-  if (CHOICES[key]) return scene[key] === null ? NaN : CHOICES[key].indexOf(scene[key]);
-  return i >= 0 ? scene.times[i] : k >= 0 ? (scene.inner?.[k] ?? NaN) : (scene[key] ?? NaN);
-}
-
-// What the engine answers about a scene; what fails may have left anything behind.
+// What the engine answers of a scene, whose values are told key by key.
 function ask(scene, answer, failed) {
   try {
-    const numbers = NUMBERS.map((key) => numberOf(scene, key));
-    const question = [UNITS.indexOf(scene.unit), ...numbers, ...(scene.measured ?? [])];
-    const to = exports.question(8 * question.length);
-    const bytes = new DataView(exports.memory.buffer, to);
-    question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
-    return answer();
+    const question = new Question(), { own, ...tables } = { ...toProgram({ ...scene, own: null }), own: scene.own ?? {} };
+    for (const [table, values] of Object.entries({ ...tables, own })) {
+      for (const [key, value] of Object.entries(values)) {
+        if (typeof value === 'string') question.say(`${table}.${key}`, value);
+        else if (value !== null && key !== 'measured') question.set(`${table}.${key}`, [value].flat().map(Number));
+      }
+    }
+    const told = answer(question);
+    question.free();
+    return told;
   } catch (fault) {
-    instantiate();
     return failed(fault);
   }
 }
 
 /** Has a scene a curve? */
-export const allowed = (scene) => ask(scene, () => Boolean(exports.allowed()), () => false);
+export const allowed = (scene) => ask(scene, (question) => question.has_curve(), () => false);
 
-/** All that is shown of a scene, as `{ Ok }` or `{ Err }`. */
-export const viewOf = (scene) => ask(scene, () => {
-  const length = exports.view(), at = exports.answer();
-  const numbers = new Float64Array(exports.memory.buffer.slice(at, at + length));
-  const parts = [];
-  for (let i = 0; i < numbers.length; i += 1 + numbers[i]) parts.push([...numbers.subarray(i + 1, i + 1 + numbers[i])]);
-  return shown(parts);
+/** All that is drawn of a scene, as `{ Ok }` or `{ Err }`; its times are in seconds, and counted as the scene's are. */
+export const viewOf = (scene) => ask(scene, (question) => {
+  const view = question.view(), shown = copied(view, originSeconds(scene));
+  view.free();
+  return shown;
 }, ({ message }) => ({ Err: { reason: `this could not be computed (${message})` } }));
 
-// The engine's answer, whose parts are told in view.rs.
-function shown(parts) {
-  const tuples = (list, n) => Array.from({ length: list.length / n }, (_, i) => list.slice(n * i, n * (i + 1)));
-  const wrong = () => {
-    const [[code, key, from, to, ...values], remedies] = parts.slice(-2);
-    const inner = from >= 0 ? [from, to] : null;
-    return { Err: { code: CODES[code], key: KEYS[key], inner, values, remedies: tuples(remedies, 2) } };
+function copied(view, origin) {
+  const tuples = (list, n) => Array.from({ length: list.length / n }, (_, i) => [...list.slice(n * i, n * (i + 1))]);
+  const later = (list, n) => tuples(list, n).map(([t, ...rest]) => [t - origin, ...rest]);
+  const wrong = view.wrong === undefined ? null : { Err: { key: view.wrong, inner: [...view.inner] } };
+  const times = later(view.times, 1).flat(), points = later(view.ramps, 2);
+  if (!times.length) return wrong ?? { Err: { key: '' } };
+  // Counted from so far off, a shutter has no digits left.
+  if (!(Math.abs(times[0]) < 1e5 * (times[3] - times[0]) || !origin)) {
+    return { Err: { key: 'flashes.delay', reason: 'sync delay: it is too long to count this shutter’s times from its edge' } };
+  }
+  const { early, hz, from_edge: delay = null } = view;
+  const ticks = [...view.ticks], pulses = tuples(view.pulses, 2), doses = [...view.doses];
+  return {
+    Ok: {
+      times, ramps: [points.slice(0, 4), points.slice(4)], cdf: later(view.cdf, 2), exposure: view.exposure,
+      edges: later(view.edges, 1).flat(), marks: later(view.marks, 3),
+      plan: wrong ?? { Ok: { ticks, pulses, early, delay, hz, doses } },
+    },
   };
-  if (parts.length === 2) return wrong();
-  const [times, ramps, cdf, [exposure, efficiency], edges, marks, numbers, ticks, pulses, doses] = parts;
-  const points = tuples(ramps, 2);
-  const both = [points.slice(0, 4), points.slice(4)];
-  const view = { times, exposure, efficiency, edges, ramps: both, cdf: tuples(cdf, 2) };
-  const named = () => PLAN.map((name, i) => [name, Number.isNaN(numbers[i]) ? null : numbers[i]]);
-  const plan = doses ? { Ok: { ticks, pulses: tuples(pulses, 2), doses, ...Object.fromEntries(named()) } } : wrong();
-  return { Ok: { ...view, marks: tuples(marks, 3), plan } };
 }

@@ -1,19 +1,18 @@
 //! What the designer's page asks: plans, forms and fits by the code of the program `shutter`.
 //!
-//! It is built twice: what the page begins with, whose questions and answers are numbers; and with the feature
-//! `studio`, which makes it much larger, what comes later, in JSON.
+//! It is built twice: what the page begins with, in numbers; and with the feature `studio`, which makes it much larger,
+//! what comes later, in words and JSON.
 
-#[cfg(target_family = "wasm")]
-mod abi;
-pub mod flat;
+#[cfg(not(feature = "studio"))]
+mod engine;
+#[cfg(feature = "studio")]
+mod fits;
 #[cfg(feature = "studio")]
 mod studio;
-#[cfg(not(feature = "studio"))]
-mod view;
 #[cfg(feature = "studio")]
-mod words;
+mod text;
 
-#[cfg(feature = "studio")]
-pub use studio::ask;
 #[cfg(not(feature = "studio"))]
-pub use view::{allowed, view};
+pub use engine::{Question, View};
+#[cfg(feature = "studio")]
+pub use studio::{emit, fit, open, tell};

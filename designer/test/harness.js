@@ -84,6 +84,16 @@ export async function ready(on = page) {
 export const drawn = (on = page) =>
   on.evaluate(() => new Promise((done) => new IntersectionObserver(done).observe(document.body)));
 
+/** Until the program has told of what is on the screen. */
+export const told = () => page.until(() => {
+  const { told, now, wrong } = designer.model;
+  return wrong?.reason || told?.scene === now.scene;
+});
+
+/** What is told of what is on the screen, and what is wrong with it. */
+export const facts = async () => (await told(), (await page.text('#facts')).replaceAll('\u00a0', ' '));
+export const problem = async () => (await told(), page.text('#problem'));
+
 /** Until the form of what is on the screen is written. */
 export const written = () => page.until(() => !document.getElementById('code').classList.contains('waits'));
 
@@ -95,7 +105,7 @@ export const hold = () => page.evaluate(() => {
   const { postMessage } = Worker.prototype;
   globalThis.held = [];
   Worker.prototype.postMessage = function (message) {
-    if (message.question.includes('"ask":"fit"')) held.push([this, message]);
+    if (message.kind === 'fit') held.push([this, message]);
     else postMessage.call(this, message);
   };
   globalThis.release = () => {
@@ -127,7 +137,7 @@ export function extend(page) {
     }, value),
     until: (what, ...args) => page.waitForFunction(what, {}, ...args),
     /** Until the page says so. */
-    says: (words) => page.waitForFunction((words) => document.body.innerText.includes(words), {}, words),
+    says: (words) => page.waitForFunction((words) => document.body.innerText.replaceAll('\u00a0', ' ').includes(words), {}, words),
     press: async (keys) => {
       const all = keys.split('+');
       for (const key of all.slice(0, -1)) await page.keyboard.down(key);
@@ -249,6 +259,12 @@ export function trace({
     text += `${((i * step) / 1000).toPrecision(7)},${(0.1 + 2.4 * (f + more(t) + 2 * noise * random())).toFixed(4)}\n`;
   }
   return text;
+}
+
+/** One with a sync beside it, which falls 3 ms before the opening. */
+export function synced() {
+  const [head, ...samples] = trace({ from: 5, samples: 2000 }).trim().split('\n');
+  return [`${head},sync_v`, ...samples.map((row) => `${row},${row.split(',')[0] < 0.002 ? 3.3 : 0.1}`)].join('\n');
 }
 
 /** One whose shutter bounces, which no curve explains. */

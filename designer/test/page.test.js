@@ -8,8 +8,8 @@ import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
   ROOT, SCENES, SOFT, bouncing, browser, choose, clipped, complaints, copied, copiedBy, curve, drag, dragged, drawn,
-  drop, ended, extend, fitted, forgive, hold, middle, open, page, planned, preset, ready, refused, rows, saved,
-  scratch, setUp, settled, shutter, sine, ticks, trace, url, written,
+  drop, ended, extend, facts, fitted, forgive, hold, middle, open, page, planned, preset, problem, ready, refused, rows,
+  saved, scratch, setUp, settled, shutter, sine, synced, ticks, told, trace, url, written,
 } from './harness.js';
 
 // Everything within one ramp or the other: the most that a curve can ask of the crate.
@@ -20,7 +20,6 @@ const TRIANGLE = '#name=triangle&unit=ms&times=0,50,50,100&triggers=20&timer_hz=
 
 setUp();
 
-const facts = () => page.text('#facts');
 const number = async (id) => Number(await page.value(`#${id}`));
 const focused = () => page.evaluate(() => {
   const it = document.activeElement;
@@ -49,52 +48,60 @@ test('the first screen takes at most 90 kB, compressed', async () => {
 
 test('each key of the program’s scene has a field, and goes into link and TOML', async () => {
   await open();
-  assert.deepEqual(await page.evaluate(() => {
-    const { FIELDS, KEYS, hash, model, toml } = designer;
-    const scene = { ...model.now.scene, ...Object.fromEntries(KEYS.map((key) => [key, 1])) };
-    const text = toml(scene), link = hash({ scene });
-    const lacks = (has) => KEYS.filter((key) => !has(key));
-    return [FIELDS.filter((id) => !document.getElementById(id)), lacks((key) => document.getElementById(key)),
-      lacks((key) => text.includes(`\n${key} = `)), lacks((key) => link.includes(`&${key}=`))];
-  }), [
-    [], ['shutteropening', 'fully_open'], [], ['open_start', 'open_end', 'close_start', 'close_end', 'shutteropening'],
-  ]);
+  // As docs/scene.md has them.
+  const doc = readFileSync(join(ROOT, 'docs', 'scene.md'), 'utf8');
+  const known = await page.evaluate(() => Object.keys(designer.KINDS).filter((key) => !/^[ty]\d$/.test(key)));
+  for (const key of known) assert.ok(doc.includes(`\`${key}\``), key);
+  const missing = await page.evaluate(() => Object.keys(designer.KINDS).filter((id) => !document.getElementById(id)));
+  assert.deepEqual(missing, ['fully_open']);
+  const { toml, link } = await page.evaluate(() => {
+    const { KINDS, hash, model: { now }, toProgram, valueOf } = designer;
+    const all = (table) => Object.fromEntries(Object.keys(table).map((key) => [key, table[key] ?? 1]));
+    const scene = { ...now.scene, flashes: all(now.scene.flashes), shutter: { ...all(now.scene.shutter), measured: null } };
+    const lacks = (has) => Object.keys(KINDS).filter((key) => !has(key));
+    const { shutter, flashes } = toProgram(scene), link = hash({ scene });
+    return {
+      toml: lacks((key) => key in shutter || key in flashes || /^[ty]\d$/.test(key)),
+      link: lacks((key) => link.includes(`&${key}=`) || valueOf(now.scene, key) !== null),
+    };
+  });
+  assert.deepEqual([toml, link], [[], []]);
 });
 
 test('wrong numbers stay as they are typed, with the reason', async () => {
   await open();
   const before = await curve();
-  const outside = /opening ramp: the time of its first inner point has to lie on the ramp, .* 0 at the start, .* is 2/;
-  const closes = /closing ramp: the openness of its second inner point has to be in \[0, 1\]; it is -1/;
-  const one = /^flashes 0 and 1 come 0 ms apart, and 333\.3 ms is required; 1 flash keeps that/;
+  const outside = /^t1: opening ramp: the time of its first inner point has to lie on the ramp, .*; it is 2/;
+  const closes = /^y6: closing ramp: the openness of its second inner point has to be in \[0, 1\]; it is -1/;
+  const one = /^how many: flashes 0 and 1 come 0 ms .*apart, and 333\.33 ms .*is required; 1 flash keeps that/;
   for (const [id, text, message] of [
     ['t1', '2', outside], ['y6', '-1', closes], ['open_end', 'NaN', /“NaN” is no number/],
-    ['close_end', '1e400', /^closed at: a finite number is required/], ['close_start', '-4', /times out of order/],
+    ['close_end', '1e400', /“1e400” is beyond all numbers/], ['close_start', '-4', /times out of order/],
     ['triggers', '0', /^how many: a whole number from 1 to 10000/], ['triggers', '', /^how many: a number is required/],
-    ['triggers', '12.5', /“12\.5” is no whole number/], ['close_end', '0', /^times out of order/],
-    ['min_gap', '-1', /^least gap: 0 or more is required/], ['min_gap', '5', /0 and 1 come .* apart, and 5 ms is/],
+    ['triggers', '12.5', /“12\.5” is no whole number/], ['close_end', '0', /^closed at: times out of order/],
+    ['min_gap', '-1', /^least gap: 0 or more is required/], ['min_gap', '5', /0 and 1 come .* apart, and 5 ms .*is/],
     ['nominal', 'x', /“x” is no number/], ['timer_bits', '24', /^timer, bits: 16 or 32 is required/],
-    ['delay', '-1', /^sync delay: 0 or more is required/], ['timer_hz', '2.5', one],
+    ['delay', '-9', /^sync delay: flashes 0 to \d+ come, .* before the edge of the sync/], ['timer_hz', '2.5', one],
   ]) {
     const last = await page.value(`#${id}`);
     await page.fill(`#${id}`, text);
-    assert.match(await page.text('#problem'), message, `${id} ${text}`);
-    assert.doesNotMatch(await page.text('#problem'), /`|\bticks?\b/);
+    assert.match(await problem(), message, `${id} ${text}`);
+    assert.doesNotMatch(await problem(), /`|--[a-z]/);
     assert.equal(await page.value(`#${id}`), text);
     // Flashes that come too close are told where their number is.
     if (!['5', '2.5'].includes(text)) assert.equal(await page.attribute(`#${id}`, 'aria-invalid'), 'true', id);
     assert.ok(await page.isDisabled('#copy'));
     assert.equal(await curve(), before);
     await page.fill(`#${id}`, last);
+    await told();
     assert.ok(!(await page.isSeen('#problem')), id);
   }
   // Nor do the facts say anything false of what is refused.
   await page.fill('#delay', '3');
   await page.fill('#timer_bits', '8');
-  assert.match(await facts(), /Sync3 ms before it opens/);
-  assert.doesNotMatch(await facts(), /no delay known|do not fit|–/);
+  assert.doesNotMatch(await facts(), /delay/, 'nothing of a plan that there is not');
   await page.fill('#timer_bits', '');
-  await page.fill('#open_end', '5');
+  await page.fill('#open_end', '8');
   const inner = await Promise.all(['t1', 't2', 't5'].map((id) => page.value(`#${id}`)));
   assert.deepEqual(inner, ['0.2', '0.3', '0.85'], 'a time takes its ramp along');
 });
@@ -112,7 +119,7 @@ test('numbers are read as people write them, and any other is refused', async ()
     ['open_end', '2 kHz', 'has an unknown unit'],
   ]) {
     await page.fill(`#${id}`, text);
-    const told = await page.text('#problem');
+    const told = await problem();
     if (typeof value === 'string') {
       assert.ok(told.includes(value), `${text}: ${told}`);
       continue;
@@ -127,7 +134,7 @@ test('numbers are read as people write them, and any other is refused', async ()
 test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; a finger reads and drags', async () => {
   const long = '#name=long&unit=µs&times=-1234.5678,1262.68902,4671.17877,8710.60274&triggers=10000&timer_hz=100000000'
     + '&inner=0.1227014,0.0005208,0.1941086,0.9329666,0.75,0.91,0.87,0.001&min_gap=0.0012345&nominal=12345.678'
-    + '&pulse=0.012345&delay=123456.78&sync_falls=true&set_up=emulated';
+    + '&pulse=0.012345&delay=1234.5678&sync_falls=true&set_up=emulated';
   await open(long, { width: 1024, height: 2800, hasTouch: true });
   await page.$eval('#inner', (it) => (it.open = true));
   for (const width of [1440, 1024, 390, 320]) {
@@ -200,25 +207,27 @@ test('each copied form is the program’s, and is saved under its name', async (
 });
 
 test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, which way the sync goes', async () => {
-  await open(SOFT.replace('&timer_hz=1000000', '').replace('&set_up=emulated', '') + '&delay=1');
+  await open(SOFT.replace('&timer_hz=1000000', '').replace('&set_up=emulated', '').replace('&min_gap=0.4', '')
+    + '&delay=1');
   for (const form of ['rust', 'c', 'csv', 'json']) {
     await choose(form);
-    const lacks = /hardware needs what only you know: the set-up; the timer’s rate; which way the sync goes/;
+    const lacks = /only you know: the set-up; the timer’s rate; the lamp’s least gap; which way the sync goes/;
     assert.match(await page.text('#code'), lacks, form);
     assert.ok(await page.isDisabled('#copy'));
   }
-  assert.match(await facts(), /Set-upnot said yetTimernot given: times alone/);
+  assert.match(await facts(), /timernone, so there are times alone[^]*gapnone asked for[^]*set-upnot said: emulated, or/);
   assert.doesNotMatch(await page.text('#ticks'), /ticks/);
-  assert.doesNotMatch(await copied('toml'), /set_up|timer_hz/);
+  assert.doesNotMatch(await copied('toml'), /set_up|timer_hz|min_gap/);
   await choose('rust');
   await page.push('The sync falls');
   await page.push('This shutter dims the lamp: in the path');
-  assert.match(await facts(), /Light\d+(\.\d+)?, 100 and \d+(\.\d+)? % from the first, the middle and the last flash/);
+  assert.match(await facts(), /dims the flashes to \d+(\.\d+)?, 100 and \d+(\.\d+)? %/);
+  await page.push('It needs none');
   await page.push('Give the timer’s rate');
   assert.equal(await focused(), 'timer_hz');
   // A coarse timer is told where the timer is, and where the ticks are.
   await page.fill('#timer_hz', '4 kHz');
-  const [, share] = /rounding +moves flashes by up to (\S+ %)/.exec(await planned('rust', 'soft'));
+  const [, share] = /flashes move by up to (\S+ %)/.exec(await planned('rust', 'soft'));
   for (const id of ['facts', 'ticks-note']) {
     assert.ok((await page.text(`#${id}`)).includes(`flashes move by up to ${share} of a share`), id);
   }
@@ -238,85 +247,87 @@ test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, wh
 });
 
 test('the delay ends at the opening: the edge of the sync stands still, whatever moves', async () => {
-  const edge = () => page.evaluate(() => designer.edgeOf(designer.model.now.scene));
-  const delays = async () => {
-    const sync = Number(/Sync([\d.]+) ms/.exec(await facts())[1]), [first] = await rows('#ticks tbody');
-    const link = await page.evaluate(() => designer.hash(designer.model.now));
-    const all = [await number('delay'), sync, /&delay=([^&]*)/.exec(link)[1]];
+  const seen = async () => {
+    const delay = Number(/delay([\d.-]+) ms/.exec(await facts())[1]), [first] = await rows('#ticks tbody');
     const { triggers: [{ ticks, from_edge_ticks: from }] } = JSON.parse(await copied('json'));
-    return [...all.map((x) => Number(Number(x).toFixed(4))), Number(first.at(-1)) === from ? (from - ticks) / 1000 : NaN];
+    const link = /&(?:own_)?delay=([^&]*)/.exec((await address()).split('&').toReversed().join('&&'))[1];
+    // Where the edge is on the trace, in the scene's own time, does not depend on any of it.
+    const edge = await page.evaluate(() => designer.originOf(designer.model.now.scene));
+    const all = [await number('delay'), delay, await number('open_start'), (from - ticks) / 1000, Number(link)];
+    assert.equal(Number(first.at(-1)), from);
+    return [Number(edge.toFixed(6)), ...all.map((x) => Number(x.toFixed(3)))];
   };
-  const is = (delay) => [delay, delay, delay, delay];
-  // By a link: a curve that is drawn, with a delay that was told.
+  const is = (edge, delay) => [edge, delay, delay, delay, delay, delay];
+  // By a link: a curve that is drawn, with a delay that was told. Its times are counted from the edge.
   await open(`${SOFT}&delay=2&sync_falls=true`);
-  assert.deepEqual([await edge(), await delays()], [-2, is(2)]);
-  await page.fill('#open_start', '0.5');
-  assert.deepEqual([await edge(), await delays()], [-2, is(2.5)]);
+  assert.deepEqual(await seen(), is(-2, 2));
+  await page.fill('#open_start', '2.5');
+  assert.deepEqual(await seen(), is(-2, 2.5));
   await page.blur('#open_start');
   await page.focus('#handle-open_start');
   await page.press('ArrowRight');
-  assert.deepEqual([await edge(), await delays()], [-2, is(2.6)]);
+  assert.deepEqual(await seen(), is(-2, 2.6));
   for (const handle of ['open_end', 't1', 'close_end']) await dragged(handle, 12, 8);
-  assert.deepEqual([await edge(), await delays()], [-2, is(2.6)]);
-  // Typed, letter by letter: the curve moves as a whole.
-  const before = await Promise.all(['open_start', 'close_end', 't1'].map(number));
-  await page.$eval('#delay', (it) => it.select());
-  await page.keyboard.type('3.125');
-  assert.deepEqual([await edge(), await delays()], [-2, is(3.125)]);
-  const after = await Promise.all(['open_start', 'close_end', 't1'].map(number));
-  assert.deepEqual(after, [before[0] + 0.525, before[1] + 0.525, before[2]].map((x) => Number(x.toPrecision(12))));
+  assert.deepEqual(await seen(), is(-2, 2.6));
+  // Typed, letter by letter: the curve's times follow, and its shape stays.
+  const shape = () => Promise.all(['t1', 'y2', 't6'].map(number));
+  const [before, closed] = [await shape(), await number('close_end')];
+  const type = async (text) => {
+    await page.$eval('#delay', (it) => it.select());
+    await page.keyboard.type(text);
+  };
+  await type('3.125');
+  assert.deepEqual((await seen()).slice(1), is(0, 3.125).slice(1));
+  assert.deepEqual([await shape(), await number('close_end')], [before, Number((closed + 0.525).toPrecision(12))]);
   await page.press('Control+z');
-  assert.deepEqual([await edge(), await delays()], [-2, is(2.6)]);
-  // Without a delay there is no edge, nor which way it goes; the first that is told moves nothing.
-  const times = () => page.evaluate(() => designer.model.now.scene.times);
-  const there = await times();
+  assert.deepEqual(await seen(), is(-2, 2.6));
+  // A shutter may open before the edge: what cannot be fired is told, with a way on.
+  await type('-9');
+  assert.match(await problem(), /sync delay: .*before the edge of the sync/);
+  // Without a delay there is no edge, nor which way it goes.
   await page.fill('#delay', '');
+  await told();
   assert.ok(!(await page.isSeen('#problem')));
-  assert.deepEqual([await edge(), await page.value('#sync_falls'), await times()], [null, '', there]);
-  await page.blur('#delay');
-  await page.$eval('#delay', (it) => it.select());
-  await page.keyboard.type('1.25');
-  assert.deepEqual(await times(), there);
-  assert.equal(await edge(), there[0] - 1.25);
+  assert.equal(await page.value('#sync_falls'), '');
+  assert.equal(await page.attribute('path.edge', 'd'), '');
 });
 
 test('on a trace the edge stands where the sync has it, and nothing that a hand moved is taken away', async () => {
   await open('');
-  const [head, ...samples] = trace({ from: 5, samples: 2000 }).trim().split('\n');
-  const synced = samples.map((row) => `${row},${row.split(',')[0] < 0.002 ? 3.3 : 0.1}`);
-  await drop(['two.csv', [`${head},sync_v`, ...synced].join('\n')]);
+  await drop(['two.csv', synced()]);
   await fitted('two.csv');
   await page.fill('#trace [name=sync]', '3');
-  await isRead();
-  await page.until(() => designer.model.now.scene.delay !== null);
-  await page.fill('#timer_hz', '1 MHz');
-  await page.fill('#set_up', 'emulated');
-  const edge = () => page.evaluate(() => designer.edgeOf(designer.model.now.scene));
-  const first = await edge(), place = await page.attribute('path.edge', 'd');
-  const told = await facts();
-  assert.match(told, /Sync(2\.9|3\.0)\d* ±/);
-  const [opens, delay] = [await number('open_start'), await number('delay')];
-  await page.fill('#open_start', String(opens + 0.5));
-  assert.equal(await edge(), first);
-  assert.ok(Math.abs(await number('delay') - delay - 0.5) < 1e-6);
+  await page.until(() => designer.model.now.scene.shutter.delay !== null && !designer.model.busy);
+  for (const [id, value] of [['timer_hz', '1 MHz'], ['set_up', 'emulated'], ['min_gap', '0']]) await page.fill(`#${id}`, value);
+  const edge = () => page.evaluate(() => designer.originOf(designer.model.now.scene));
+  const same = async (x) => assert.ok(Math.abs((await edge()) - x) < 1e-9, String(await edge()));
+  const first = await edge(), text = await facts(), fit = await copied('toml');
+  assert.match(text, /delay(2\.9|3\.0)\d* ms from the sync’s falling edge.*known to± /s);
+  const delay = await number('delay');
+  assert.equal(await number('open_start'), delay, 'its times are counted from the edge');
+  await page.fill('#open_start', String(delay + 0.5));
+  await same(first);
+  assert.ok(Math.abs((await number('delay')) - delay - 0.5) < 1e-6);
   assert.match(await copied('toml'), new RegExp(`^delay = ${await page.value('#delay')}$`, 'm'));
-  assert.match(await facts(), new RegExp(`Sync${String(Number((delay + 0.5).toPrecision(5)))}`));
   await page.push('Back to the fit');
-  assert.deepEqual([await edge(), await facts(), await page.attribute('path.edge', 'd')], [first, told, place]);
+  assert.deepEqual([await facts(), await copied('toml')], [text, fit]);
+  // A delay that is typed stands beside the trace's, and counts; that it differs is told.
   await page.fill('#delay', '2.5');
-  assert.match(await facts(), /Sync2\.5 ms/);
-  assert.equal(await edge(), first);
-  assert.match(await facts(), /Changed by hand/);
+  assert.match(await facts(), /delay2\.5 ms from the sync’s falling edge.*the trace has/s);
   assert.match(await copied('rust'), /DELAY_TICKS: u32 = 2_500;/);
+  assert.ok((await copied('toml')).startsWith(fit.split('[flashes]')[0]), 'what the fit wrote stays as it is');
+  assert.equal(await number('open_start'), 2.5);
   // Read otherwise, what is typed stays, until a person says so.
-  await page.fill('#trace [name=light]', 'up');
-  await page.says('the curve was changed by hand before');
+  const again = async (way) => {
+    await page.fill('#trace [name=light]', way);
+    await page.says('the curve was changed by hand before');
+  };
+  await again('up');
   assert.equal(await page.value('#delay'), '2.5');
   await page.push('Show the fit');
-  assert.ok(Math.abs(await number('delay') - delay) < 1e-6);
+  assert.ok(Math.abs((await number('delay')) - delay) < 1e-6);
   await page.fill('#delay', '');
-  await page.fill('#trace [name=light]', 'auto');
-  await page.says('the curve was changed by hand before');
+  await again('auto');
   assert.equal(await page.value('#delay'), '');
 });
 
@@ -324,10 +335,10 @@ test('a doubt of a fit goes with the fit: what is drawn is doubted no more', asy
   await open();
   await drop(['clipped.csv', clipped()]);
   await fitted('clipped.csv');
-  for (const form of ['toml', 'csv', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
+  for (const form of ['toml', 'rust', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
   await dragged('open_end', 20, 0);
-  for (const form of ['toml', 'csv', 'json']) assert.doesNotMatch(await copied(form), /clipped: |own/, form);
-  assert.doesNotMatch(await page.evaluate(() => designer.hash(designer.model.now)), /doubt/);
+  for (const form of ['toml', 'rust', 'json']) assert.doesNotMatch(await copied(form), /clipped: /, form);
+  assert.doesNotMatch(await address(), /clipped:|trace=/);
   await page.push('Back to the fit');
   assert.match(await copied('json'), /clipped: \d+ %/);
 });
@@ -427,13 +438,13 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   await page.push('Choose the unit');
   assert.equal(await focused(), 'unit');
   await choice('unit', 'ms');
-  await page.until(() => Math.abs(document.getElementById('open_end').value - 0.8) < 0.01);
+  await page.until(() => Math.abs(document.getElementById('open_end').value - document.getElementById('open_start').value - 0.8) < 0.01);
   assert.ok(!/does not say/.test(await facts()));
   const kept = await Promise.all(['pulse', 'min_gap', 'triggers', 'lamp', 'nominal', 'name'].map(value));
   assert.deepEqual(kept, ['0.011', '0.02', '12', 'pulse', '', 'bench']);
   // Each is a step; with the first the trace goes as well.
   await page.click('#undo');
-  assert.ok(await number('open_end') > 700);
+  assert.ok(await number('open_end') - await number('open_start') > 700);
   await page.click('#undo');
   assert.deepEqual([await address(), await light()], [before, '']);
   await page.click('#redo');
@@ -452,7 +463,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   await page.keyboard.type('100,5e3');
   await page.keyboard.press('Enter');
   await isRead();
-  assert.ok(Math.abs(await number('open_end') - (80 / 100.5)) < 0.01, await value('open_end'));
+  assert.ok(Math.abs(await number('open_end') - await number('open_start') - (80 / 100.5)) < 0.01);
   // Another column; and what is chosen before the last choice is read counts as well.
   await drop(['down.csv', made(1e-5, (f) => 3 - 2 * f, 'time (s),dark,light\n').replace(/,(?=[\d.]+$)/gm, ',0.5,')]);
   await fitted('down.csv');
@@ -469,17 +480,14 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
 
 test('a channel of the sync gives the delay, and its way; what is outside of a window does not count', async () => {
   await open('');
-  const [head, ...samples] = trace({ from: 5, samples: 2000 }).trim().split('\n');
-  const synced = samples.map((row) => `${row},${row.split(',')[0] < 0.002 ? 3.3 : 0.1}`);
-  await drop(['two.csv', [`${head},sync_v`, ...synced].join('\n')]);
+  await drop(['two.csv', synced()]);
   await fitted('two.csv');
   await page.push('Choose its channel');
   assert.equal(await focused(), 'sync');
   await page.fill('#trace [name=sync]', '3');
-  await page.until(() => designer.model.now.scene.delay !== null && !designer.model.busy);
+  await page.until(() => designer.model.now.scene.shutter.delay !== null && !designer.model.busy);
   assert.ok(Math.abs(await number('delay') - 3) < 0.02, await page.value('#delay'));
   assert.equal(await page.value('#sync_falls'), 'true');
-  assert.match(await facts(), /Sync(2\.9|3\.0)\d* /);
   // In the unit of the file's times.
   await page.fill('#trace [name=from]', '10 ms');
   await isRefused();
@@ -487,7 +495,7 @@ test('a channel of the sync gives the delay, and its way; what is outside of a w
   await page.fill('#trace [name=from]', '0.001');
   await isRead();
   assert.match(await page.text('#report pre'), /^samples +1900,/m);
-  assert.match(await copied('toml'), /^delay = (2\.9|3\.0)\d*\n(.*\n)*sync_falls = true$/m);
+  assert.match(await copied('toml'), /^delay = (2\.9|3\.0)\d*\nsync_falls = true$/m);
 });
 
 test('a window is dragged on the whole record, in the file’s own time', async () => {
@@ -539,9 +547,9 @@ test('the words are explained on the page itself', async () => {
 
 test('a scene in TOML is as it was written, and what is given in it stays; a broken one is refused', async () => {
   await open();
-  const text = 'unit = "ms"\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 15\ntriggers = 7\n'
-    + 'timer_hz = 2000000\ntimer_bits = 16\nmin_gap = 0.25\ndelay = 1\ndelay_spread = 0.02\nsync_falls = true\n'
-    + 'set_up = "emulated"\nlamp_lag = 1.3\n';
+  const text = '[shutter]\nunit = "ms"\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 15\n'
+    + '[flashes]\nunit = "us"\ntriggers = 7\ntimer_hz = 2000000\ntimer_bits = 16\nmin_gap = 250\ndelay = 1000\n'
+    + 'delay_spread = 20\nsync_falls = true\nset_up = "emulated"\nlamp_lag = 1300\n';
   const file = join(scratch, 'short.toml');
   writeFileSync(file, text);
   await drop(['short.toml', text]);
@@ -551,15 +559,15 @@ test('a scene in TOML is as it was written, and what is given in it stays; a bro
   assert.match(await copied('rust'), /u16/);
   // A lag beyond the delay is taken off each tick.
   assert.deepEqual(await ticks(), JSON.parse(await copied('json')).triggers.map((it) => it.ticks));
-  const [, told] = /^drift +(.*)$/m.exec(shutter('plan', file));
-  assert.equal((await page.text('#drift')).toLowerCase(), `${told}.`.toLowerCase());
+  const [, drift] = /^drift +(.*)$/m.exec(shutter('plan', file));
+  assert.ok((await facts()).includes(`drift${drift}`));
   const link = await copiedBy(() => page.click('#link'));
   await open(link.slice(url.length));
   assert.equal(await copied('json'), plan('json'));
-  await drop(['mine.toml', 'open_start = 0\nopen_end = "soon"\n']);
+  await drop(['mine.toml', '[shutter]\nopen_end = "soon"\n']);
   await page.waitForSelector('#problem.wrong');
   assert.match(await page.text('#problem'), /^mine\.toml:2: open_end: a number is required/);
-  await drop(['bare.toml', 'open_start = 0\ntrigger_times = [1, 2, 3.5]\ntimer_hz = 1000\nmin_gap = 0\n']);
+  await drop(['bare.toml', '[shutter]\nopen_start = 0\ntrigger_times = [1, 2, 3.5]\n']);
   await page.says('bare.toml: these are trigger times as they were measured, and this page needs the curve');
   await drop(['mine.toml', text], ['bench.csv', trace()]);
   await page.says('opened alone: no file beside it was read');
@@ -609,7 +617,7 @@ test('links of garbage get a message', async () => {
     ...['"dial":-3', '"dial":0', '"exposure":-1', '"error":null'].map((wrong) =>
       `${SOFT}&speeds=[${SPEED.replace('}', `,${wrong}}`)}]`),
     ...['3,2,1,0', '0,0,0,0', '0,2,1,3', '1e39,2e39,3e39,4e39'].map((times) => SOFT.replace('0,2.5,7.5,10', times)),
-    `${SOFT}&measured=1,2`, SOFT.replace('0.9,0', '0.9,2'), SOFT.replace('unit=ms', 'unit='),
+    `${SOFT}&triggers_at=0,1,2`, `${SOFT}&trace={}`, `${SOFT}&trace=7`, SOFT.replace('0.9,0', '0.9,2'), SOFT.replace('unit=ms', 'unit='),
     SOFT.replace('triggers=12', 'triggers=12.5'), ALL_RAMP.replace('unit=ms', 'unit=parsec'),
     ...['NaN', '1e308', '-Infinity'].map((x) => ALL_RAMP.replaceAll(/\d+(\.\d+)?/g, x)),
     ALL_RAMP.replace('triggers=256', 'triggers=4294967295'),
@@ -721,7 +729,7 @@ test('a shutter whose flashes do not fit is shown, undone and redone; what would
   await drop(['fast.csv', trace({ up: 0.4, open: 2.6, down: 0.5 })]);
   await fitted('fast.csv');
   assert.match(await page.text('#speed'), /^1\/3\d\d s/, 'not the shutter before');
-  assert.match(await page.text('#problem'), /come 0\.\d+ ms apart, and 0\.4 ms is required/);
+  assert.match(await problem(), /come 0\.\d+ ms .*apart, and 0\.4 ms .*is required/);
   assert.ok((await page.isDisabled('#copy')) && (await page.isDisabled('#save')) && !(await page.isSeen('#ticks')));
   const shape = await curve();
   await page.click('#undo');
@@ -741,9 +749,9 @@ test('a misfit takes the trace’s own times away, as the program does; a change
   await drop(['bounce.csv', bouncing()]);
   await fitted('bounce.csv');
   const program = async (n) => {
-    const [file, scene] = [join(scratch, 'bounce.csv'), join(scratch, 'bounce.toml')];
+    const [file, scene] = [join(scratch, 'bounce.csv'), join(scratch, `bounce${n}.toml`)];
     writeFileSync(file, bouncing());
-    shutter('fit', file, '--zero', 'open', '--triggers', n, '--out', scene, '--force');
+    shutter('fit', file, '--triggers', n, '--out', scene, '--force');
     const [there, here] = [readFileSync(scene, 'utf8'), await copied('toml')].map((text) => {
       const [, times] = /trigger_times = \[([^\]]*)\]/.exec(text);
       return times.split(',').map(Number).filter((x) => x);
@@ -764,6 +772,7 @@ test('a misfit takes the trace’s own times away, as the program does; a change
   assert.notEqual(await page.attribute('path.residual', 'd'), left, 'what is left moves with the curve');
   assert.match(await page.text('#by-hand'), /Changed by hand.*misses the trace by/);
   await page.mouse.up();
+  await told();
   assert.doesNotMatch(await page.text('#facts dl'), /own times|curve explains the trace/);
   await page.push('Back to the fit');
   assert.deepEqual([await curve(), await copied('toml')], [shown, own]);
@@ -784,7 +793,7 @@ test('a misfit without times of its own takes nothing away, until a person insis
     for (const id of ['copy', 'save', 'link']) assert.ok(await page.isDisabled(`#${id}`), id);
   };
   await isDoubted();
-  assert.match(await facts(), /the model's, and off by more than their errors say/);
+  assert.match(await facts(), /testno curve explains the trace/);
   await settled();
   const before = await page.evaluate(() => location.hash);
   await page.push('Use the curve all the same');
@@ -801,6 +810,7 @@ test('another shutter ends what is computed; a number that is typed meanwhile co
   // The forms are written meanwhile; what would help stays the same button.
   assert.match(await copied('csv'), /^scene,index/);
   await page.fill('#min_gap', '5');
+  await told();
   const help = await page.$('#problem button');
   await page.evaluate(() => held[0][0].onmessage({ data: { progress: 0.5 } }));
   assert.match(await page.text('#busy'), /Reading long\.csv: 50 %/);
@@ -921,8 +931,8 @@ test('a clipped trace is doubted on the screen, in every form, link and row', as
   await open();
   await drop(['clipped.csv', clipped()]);
   await fitted('clipped.csv');
-  assert.match(await facts(), /Exposure7\.\d+ ± [\d.]+ ms, as if fully openclipped: \d+ % of the pulse's samples stop/);
-  for (const form of ['rust', 'c', 'toml', 'csv', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
+  assert.match(await facts(), /exposure7\.\d+ ± [\d.]+ ms\s*clipped: \d+ % of the pulse’s samples stop[^]*testuntested/);
+  for (const form of ['rust', 'c', 'toml', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
   JSON.parse(await copied('json'));
   const link = await copiedBy(() => page.click('#link'));
   await follow(link);
@@ -959,7 +969,7 @@ test('what is told goes when its cause goes, and a hand ends no fit', async () =
   await page.fill('#open_end', '2.5');
   assert.ok(!(await page.isSeen('#problem')));
   await page.fill('#timer_hz', '333333.4');
-  assert.match(await facts(), /planned as 333333 Hz/);
+  assert.match(await facts(), /333333/);
   // The fit comes, but takes nothing away that was drawn meanwhile.
   await hold();
   await drop(['bench.csv', trace()]);

@@ -119,12 +119,6 @@ impl Pair {
 /// What is wrong.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
-#[cfg_attr(
-    feature = "codes",
-    derive(strum::EnumDiscriminants),
-    strum_discriminants(derive(strum::VariantNames), name(Code), allow(missing_docs)),
-    strum_discriminants(doc = "What is wrong, without the values.", strum(serialize_all = "snake_case"))
-)]
 pub enum What {
     /// What only a text can have wrong.
     #[error("{0}")]

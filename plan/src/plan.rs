@@ -10,7 +10,7 @@ use crate::frames::{Frames, whole_ticks};
 use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
 use crate::scene::{Key, Measured, Scene};
 use crate::set_up::doses;
-use crate::shape::{self, Shape};
+use crate::shape::{self, Shape, noted};
 use crate::sync::{Delay, LAST, Sync};
 use crate::timer::Timer;
 
@@ -19,7 +19,7 @@ use crate::timer::Timer;
 pub struct Trigger {
     /// The fraction of the exposure collected by then, where a curve tells.
     pub u: Option<f32>,
-    /// Its exact time in seconds, with the digits of an `f32` where a curve tells.
+    /// Its exact time in seconds, an `f32` where a curve tells.
     pub time: f64,
     /// The timer's ticks after the shutter starts to open.
     pub ticks: u32,
@@ -99,6 +99,14 @@ impl Plan {
     /// # Errors
     /// Keys that are missing or out of their range, a curve that the crate refuses, triggers that cannot be fired.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
+        Self::bare(scene).map_err(|fault| noted(scene, fault))
+    }
+
+    /// The same; what is wrong has no notes, and nothing is told in words.
+    ///
+    /// # Errors
+    /// Those of [`Plan::new`].
+    pub fn bare(scene: &Scene) -> Result<Self, Fault> {
         match &scene.shutter.trigger_times {
             None => Self::by_curve(scene),
             Some(times) => Self::by_times(scene, times),
@@ -140,7 +148,7 @@ impl Plan {
                 _ => (u, curve.inverse_cdf(u)),
             };
             let pulse = frames.lamp.has_pulses().then_some((flash.on as u32, flash.off as u32));
-            Trigger { u: Some(u), time: with_its_digits(time), ticks: flash.tick, pulse }
+            Trigger { u: Some(u), time: time.into(), ticks: flash.tick, pulse }
         };
         let triggers = (0..).zip(&frame).map(trigger).collect();
         let (lamp, most) = (frames.lamp, frames.most(n, MOST_TRIGGERS + 1));
@@ -301,7 +309,7 @@ impl Plan {
             Row {
                 index,
                 u: trigger.u,
-                time_s: trigger.time,
+                time_s: if self.curve.is_some() { with_its_digits(trigger.time as f32) } else { trigger.time },
                 ticks,
                 gap_ticks: last.replace(ticks).map(|last| ticks - last),
                 from_edge_ticks: delay.map(|_| from_edge + ticks),

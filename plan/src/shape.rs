@@ -4,7 +4,7 @@ use shutter_curve::{CubicBezier, CurveError, Part, ShutterCurve};
 use shutter_fit::unit::{rounded, short};
 
 use crate::fault::{DIGITS, Fault, What};
-use crate::scene::{Key, Shutter};
+use crate::scene::{Key, Scene, Shutter};
 
 /// A curve as a scene has it: its times in seconds, and its inner control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,14 +118,7 @@ impl Shape {
             E::NotFinite(part) | E::TimesCross(part) => ((ramp(part), ramp(part) + 4), error.into()),
             _ => ((0, 8), error.into()),
         };
-        let mut fault = Fault { inner: Some(inner), ..Fault::new(INNER, what) };
-        fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
-        let is_time = matches!(error, E::FractionOutsideRamp { .. });
-        if let Some((convention, inner)) = is_time.then(|| self.misread(shutter, numbers)).flatten() {
-            fault.notes.push(format!("As {convention} they would fit; that is"));
-            fault.notes.push(format!("shutteropening = [{}]", inner.join(", ")));
-        }
-        fault
+        Fault { inner: Some(inner), ..Fault::new(INNER, what) }
     }
 
     /// Another convention by which the inner control points fit, if there is one: its name, and the same points as the
@@ -154,6 +147,20 @@ impl Shape {
             shape.curve().is_ok().then(|| (name, inner.map(|x| short(x, DIGITS))))
         })
     }
+}
+
+/// What is wrong with a scene, with what may help where it is its inner control points.
+pub(crate) fn noted(scene: &Scene, mut fault: Fault) -> Fault {
+    let is_curve = matches!(*fault.what, What::Curve(_) | What::Inner { .. }) && fault.inner.is_some();
+    let Some(numbers) = scene.shutter.shutteropening.as_ref().filter(|_| is_curve) else { return fault };
+    fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
+    let is_time = matches!(*fault.what, What::Inner { error: CurveError::FractionOutsideRamp { .. }, .. });
+    let shape = Shape::new(&scene.shutter).ok().filter(|_| is_time);
+    if let Some((convention, inner)) = shape.and_then(|it| it.misread(&scene.shutter, numbers)) {
+        fault.notes.push(format!("As {convention} they would fit; that is"));
+        fault.notes.push(format!("shutteropening = [{}]", inner.join(", ")));
+    }
+    fault
 }
 
 fn given(shutter: &Shutter) -> [Option<f64>; 4] {

@@ -1,0 +1,57 @@
+// What the program tells of a scene, in its words, with the page's names in place of its keys.
+
+import { $ } from './dom.js';
+import { model, tell } from './model.js';
+import { INNER, KINDS } from './scene.js';
+import { tellScene } from './studio.js';
+
+/** What was told of scenes when the page was built. */
+export const known = new WeakMap();
+let asked;
+
+/** Has the program tell of the model's scene, and draws it when that comes. */
+export async function askProgram({ now: { scene } }) {
+  if (asked === scene) return;
+  asked = scene;
+  const answer = known.has(scene) ? { Ok: known.get(scene) } : await tellScene(scene);
+  // Something newer was asked.
+  if (!answer || asked !== scene) return;
+  const wrong = answer.Err && { key: '', text: answer.Err, remedies: [] };
+  tell({ told: { scene, facts: [], doubts: [], wrong, ...answer.Ok } });
+}
+
+/** What is told of the scene that is on the screen, once it is. */
+export const toldNow = ({ told, now }) => (told?.scene === now.scene ? told : null);
+
+/** A field's name, as it stands on the page. */
+export const label = (id) =>
+  id === 'fully_open' ? 'flashes while fully open' : $(id)?.labels[0].firstChild.data.trim().replace(/,$/, '') ?? id;
+
+/** The fields that a key is about, as `flashes.triggers`. */
+export function fieldsOf({ key = '', inner }) {
+  const name = key.split('.').pop();
+  return name === 'shutteropening' ? INNER.slice(...(inner ?? [])) : name === 'trigger_times' ? ['triggers'] : [name];
+}
+
+const PLACES = {
+  open_start: 'the start of opening', open_end: 'fully open', close_start: 'the start of closing', close_end: 'the end',
+};
+const keys = Object.keys(KINDS).filter((key) => key.includes('_') || key === 'duty');
+const NAMES = new RegExp(`\`?\\b(${keys.join('|')})\\b\`?`, 'g');
+
+/** The program's words, with the page's names. */
+export const inWords = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g, '').replace(NAMES, (_, key) => PLACES[key] ?? `“${label(key)}”`)
+  .replace(/(?<=\w)'(?=\w)/g, '’').replace(/\btrigger(s?)\b/g, (_, many) => (many ? 'flashes' : 'flash'));
+
+/** What is wrong, once it is known in words. */
+export function wordsOf(model) {
+  const { wrong } = model;
+  if (!wrong || wrong.reason) return wrong?.reason ?? '';
+  const told = toldNow(model)?.wrong;
+  if (!told) return '';
+  const [field] = fieldsOf(told);
+  return `${wrong.isLink ? 'The link holds no curve: ' : ''}${field ? `${label(field)}: ` : ''}${inWords(told.text)}`;
+}
+
+/** What would help, as [words, the flashes that do]. */
+export const remedies = (model) => (model.wrong?.reason ? [] : toldNow(model)?.wrong?.remedies ?? []);

@@ -1,0 +1,203 @@
+//! All that the page draws of a scene, fast enough to follow the mouse. Times are in seconds.
+//!
+//! A scene comes number by number, by its keys: a reader of JSON, or of JavaScript's objects, and what tells in words
+//! what is wrong, would each make the page's first load half as large again.
+
+use shutter_curve::{CubicBezier, ShutterCurve};
+use shutter_fit::unit::Unit;
+use shutter_plan::facts::ends;
+use shutter_plan::fault::Fault;
+use shutter_plan::lamp::{Lamp, SetUp};
+use shutter_plan::plan::{MOST_TRIGGERS, Plan};
+use shutter_plan::scene::{Scene, Shutter};
+use shutter_plan::set_up::doses;
+use shutter_plan::shape::Shape;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The points along the cdf.
+const POINTS: u16 = 200;
+
+/// A scene; where no curve explains its trace, with the trace's own triggers beside.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct Question {
+    scene: Scene,
+    own: Shutter,
+}
+
+/// What is drawn.
+#[wasm_bindgen(getter_with_clone)]
+#[derive(Default)]
+pub struct View {
+    /// The curve's four times; none where the scene has no curve.
+    pub times: Vec<f64>,
+    /// Both ramps' control points: time and openness of each.
+    pub ramps: Vec<f64>,
+    /// Points of the cdf: time and share.
+    pub cdf: Vec<f64>,
+    /// The effective exposure.
+    pub exposure: f64,
+    /// Where the equal shares of the exposure begin and end.
+    pub edges: Vec<f64>,
+    /// Of each trigger the time, the openness and the share of the exposure.
+    pub marks: Vec<f64>,
+    /// The triggers as a firmware counts them; none where the scene cannot be planned.
+    pub ticks: Vec<u32>,
+    /// When each pulse goes on and off, in the same ticks.
+    pub pulses: Vec<u32>,
+    /// What is taken off each tick.
+    pub early: u32,
+    /// From the sync's edge to where they count from.
+    pub from_edge: Option<u32>,
+    /// The timer's rate.
+    pub hz: u32,
+    /// The light of the first, the middle and the last flash, where the set-up is known and they differ.
+    pub doses: Vec<f64>,
+    /// The key that is wrong, as `flashes.triggers`; empty where it is none's.
+    pub wrong: Option<String>,
+    /// From where to where it is wrong among the inner control points.
+    pub inner: Vec<u32>,
+}
+
+#[wasm_bindgen]
+impl Question {
+    /// Nothing is told yet.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Tells the numbers of a key; yes is 1.
+    pub fn set(&mut self, key: &str, numbers: Vec<f64>) {
+        let Self { scene: Scene { shutter, flashes, .. }, own } = self;
+        let x = numbers.first().copied();
+        let is = x.map(|x| x == 1.0);
+        match key {
+            "shutter.open_start" => shutter.open_start = x,
+            "shutter.open_end" => shutter.open_end = x,
+            "shutter.close_start" => shutter.close_start = x,
+            "shutter.close_end" => shutter.close_end = x,
+            "shutter.shutteropening" => shutter.shutteropening = Some(numbers),
+            "shutter.delay" => shutter.delay = x,
+            "shutter.delay_spread" => shutter.delay_spread = x,
+            "shutter.sync_falls" => shutter.sync_falls = is,
+            "shutter.nominal" => shutter.nominal = x,
+            "own.open_start" => own.open_start = x,
+            "own.trigger_times" => own.trigger_times = Some(numbers),
+            "flashes.triggers" => flashes.triggers = x,
+            "flashes.min_gap" => flashes.min_gap = x,
+            "flashes.timer_hz" => flashes.timer_hz = x,
+            "flashes.timer_bits" => flashes.timer_bits = x,
+            "flashes.pulse" => flashes.pulse = x,
+            "flashes.duty" => flashes.duty = x,
+            "flashes.min_pulse" => flashes.min_pulse = x,
+            "flashes.fully_open" => flashes.fully_open = is,
+            "flashes.lamp_lag" => flashes.lamp_lag = x,
+            "flashes.delay" => flashes.delay = x,
+            "flashes.delay_spread" => flashes.delay_spread = x,
+            "flashes.sync_falls" => flashes.sync_falls = is,
+            _ => {}
+        }
+    }
+
+    /// Tells the word of a key.
+    pub fn say(&mut self, key: &str, word: &str) {
+        let Scene { shutter, flashes, .. } = &mut self.scene;
+        let unit = || Unit::ALL.into_iter().find(|unit| unit.name() == word);
+        match key {
+            "shutter.unit" => shutter.unit = unit(),
+            "flashes.unit" => flashes.unit = unit(),
+            "flashes.set_up" => {
+                flashes.set_up = [SetUp::Emulated, SetUp::InPath].into_iter().find(|it| it.name() == word);
+            }
+            _ => {}
+        }
+    }
+
+    /// Has the scene a curve?
+    pub fn has_curve(&self) -> bool {
+        self.curve().is_some()
+    }
+
+    /// All that is drawn of it.
+    pub fn view(&self) -> View {
+        let mut view = View::default();
+        if let Err(fault) = self.show(&mut view) {
+            view.wrong = Some(fault.key.into());
+            view.inner = fault.inner.map_or(Vec::new(), |(from, to)| vec![from as u32, to as u32]);
+        }
+        view
+    }
+}
+
+impl Question {
+    fn curve(&self) -> Option<(Shape, ShutterCurve)> {
+        let shape = Shape::new(&self.scene.shutter).ok()?;
+        Some((shape, shape.curve().ok()?))
+    }
+
+    /// Its plan, of the trace's own times where it has them.
+    fn plan(&self) -> Result<Plan, Fault> {
+        let Some(times) = &self.own.trigger_times else { return Plan::bare(&self.scene) };
+        let (open_start, trigger_times) = (self.own.open_start, Some(times.clone()));
+        let (open_end, close_start, close_end, shutteropening) = (None, None, None, None);
+        let shutter = self.scene.shutter.clone();
+        let shutter =
+            Shutter { open_start, trigger_times, open_end, close_start, close_end, shutteropening, ..shutter };
+        Plan::bare(&Scene { shutter, ..self.scene.clone() })
+    }
+
+    fn show(&self, view: &mut View) -> Result<(), Fault> {
+        let plan = self.plan();
+        let Some((shape, curve)) = self.curve() else { return plan.map(drop) };
+        let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
+        let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
+        let points = ramps(&shape).map(|ramp| ramp.points());
+        view.times = shape.times.map(f64::from).to_vec();
+        view.ramps = points.into_iter().flatten().flat_map(|(t, y)| [t.into(), y.into()]).collect();
+        view.cdf = times.flat_map(|t| [t.into(), curve.cdf(t).into()]).collect();
+        view.exposure = curve.exposure().into();
+        let asked = self.scene.flashes.triggers.unwrap_or_default() as u32;
+        let n = asked.min(MOST_TRIGGERS);
+        let u = |i: f32| i / n as f32;
+        // Flashes while the shutter is fully open share out the time, not the exposure; measured ones have no curve
+        // that does.
+        let is_shared = plan.as_ref().is_ok_and(|plan| plan.curve.is_some() && plan.lamp != Lamp::FullyOpen);
+        view.edges = (0..=n).filter(|_| is_shared).map(|i| curve.inverse_cdf(u(i as f32)).into()).collect();
+        let mark = |t: f64, u: f64| [t, curve.openness(t as f32).into(), u];
+        let unit = self.scene.shutter.unit();
+        view.marks = match (&self.own.trigger_times, &plan) {
+            (Some(times), _) => {
+                let middles = (0..times.len()).map(|i| (i as f64 + 0.5) / times.len() as f64);
+                times.iter().zip(middles).flat_map(|(t, u)| mark(unit.seconds(*t), u)).collect()
+            }
+            (None, Ok(plan)) => {
+                plan.triggers.iter().flat_map(|it| mark(it.time, it.u.unwrap_or_default().into())).collect()
+            }
+            (None, Err(_)) => {
+                let middles = (0..n).map(|i| u(i as f32 + 0.5));
+                middles.flat_map(|u| mark(curve.inverse_cdf(u).into(), u.into())).collect()
+            }
+        };
+        let plan = plan?;
+        let early = plan.sync.early;
+        view.ticks = plan.triggers.iter().map(|trigger| trigger.ticks - early).collect();
+        view.pulses = plan.pulses().flat_map(|(on, off)| [on.saturating_sub(early), off - early]).collect();
+        view.early = early;
+        view.from_edge = plan.sync.delay.map(|_| plan.sync.ticks);
+        view.hz = plan.timer.hz;
+        let doses = plan.set_up.map_or(Vec::new(), |set_up| doses(set_up, &plan));
+        let is_even = doses.iter().all(|dose| *dose > 0.985);
+        view.doses = if is_even { Vec::new() } else { ends(&doses) };
+        Ok(())
+    }
+}
+
+/// Both ramps, straight ones as well.
+fn ramps(shape: &Shape) -> [CubicBezier; 2] {
+    let [open_start, open_end, close_start, close_end] = shape.times;
+    shape.ramps().unwrap_or([
+        CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
+        CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
+    ])
+}

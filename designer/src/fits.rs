@@ -1,0 +1,241 @@
+//! Fits to a trace, and what is told of them, with the page's field that mends it.
+
+use serde::{Deserialize, Serialize};
+use shutter_fit::delay::Sync;
+use shutter_fit::fact::Fact;
+use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Remedy, Tell, Trace, Warning};
+use shutter_fit::unit::Unit;
+use shutter_fit::{Fit, From, Options, report, speed};
+use shutter_plan::fitted::{Zero, curve_shutter, shutter};
+use shutter_plan::scene::Shutter;
+
+/// More samples are drawn as the least and the greatest of neighbours.
+const MOST: usize = 2000;
+/// The first rows of a file that are shown.
+const ROWS: usize = 6;
+
+/// How a file is to be read, and what of it is to be fitted; what is left out is the file's own.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub struct Asked {
+    unit: Option<Unit>,
+    /// The samples in a second.
+    rate: Option<f64>,
+    /// The first time that counts, in seconds, and the last one.
+    from: Option<f64>,
+    to: Option<f64>,
+    /// The time's and the signal's column, from 1, or the signal's alone.
+    columns: Vec<usize>,
+    /// The sync's column, from 1.
+    sync: Option<usize>,
+    light: Light,
+    /// The signal of full light.
+    full: Option<f64>,
+    /// Which pulse, from 1.
+    frame: Option<usize>,
+    triggers: u32,
+}
+
+/// A trace: what its file begins with, how it was read, and its fit or what is in the way of that.
+#[derive(Serialize)]
+pub struct Measured {
+    #[serde(flatten)]
+    preview: Preview,
+    read: Option<Reading>,
+    /// What was read, as (seconds of the file, signal).
+    raw: Vec<[f64; 2]>,
+    fit: Result<Fitted, Told>,
+}
+
+/// A trace's fit. Times are in seconds of the scene.
+#[derive(Serialize)]
+struct Fitted {
+    /// As the program writes it.
+    shutter: Shutter,
+    /// The curve beside a trace's own triggers, which it does not explain.
+    curve: Shutter,
+    facts: Vec<Fact>,
+    /// As the program prints it.
+    report: String,
+    kind: &'static str,
+    exposure_s: f64,
+    exposure_error_s: f64,
+    pulses: usize,
+    pulse: usize,
+    /// By what share the exposures of all pulses differ.
+    scatter: f64,
+    light_lowers: bool,
+    explained: bool,
+    rms: f64,
+    /// Each with its standard error.
+    triggers: Vec<(f64, f64)>,
+    warnings: Vec<Told>,
+    /// The trace as (time, openness, residual).
+    samples: Vec<[f64; 3]>,
+}
+
+/// Something that is wrong or doubtful, and the field that mends it.
+#[derive(Serialize)]
+struct Told {
+    text: String,
+    /// Another file where none of them helps.
+    mend: Option<&'static str>,
+    /// The fact that is doubtful.
+    about: &'static str,
+}
+
+/// Reads the trace in `bytes`, and fits it.
+pub fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Measured {
+    let preview = trace::preview(&bytes, ROWS).unwrap_or_default();
+    let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
+    let options = trace::Options {
+        unit: asked.unit,
+        columns,
+        rate: asked.rate,
+        from: asked.from,
+        to: asked.to,
+        sync: asked.sync.map(Column::Number),
+    };
+    let recording = trace::open(&bytes, &options);
+    drop(bytes);
+    let read = recording.as_ref().ok().map(|recording| recording.reading.clone());
+    let pairs = |trace: &Trace| trace.times.iter().zip(&trace.values).map(|(t, v)| [*t, *v]).collect();
+    let raw = recording.as_ref().map_or(Vec::new(), |recording| fewer(pairs(&recording.trace)));
+    let fit = recording
+        .and_then(|recording| fitted(name, recording, asked, progress))
+        .map_err(|it| refusal(&it, asked.light != Light::Auto));
+    Measured { preview, read, raw, fit }
+}
+
+fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Fitted, Refusal> {
+    let options = Options {
+        full: asked.full,
+        frame: asked.frame,
+        light: asked.light,
+        triggers: Some(asked.triggers),
+        sync: recording.sync.map(Sync::Channel),
+        ..Options::default()
+    };
+    let mut fit = shutter_fit::fit(&recording.trace, &options, progress)?;
+    fit.reading = Some(recording.reading);
+    fit.warnings.splice(..0, recording.warnings);
+    let (own, zero) = shutter(&fit, name, Zero::Trace, None)?;
+    let start = if zero == Zero::Open { fit.opens } else { 0.0 };
+    let curve = moved(curve_shutter(&fit, name, Zero::Open, None)?.0, fit.best().signal.curve.start - start);
+    let signal = &fit.best().signal;
+    let samples = fit.samples.times.iter().zip(&fit.samples.values).map(|(&t, &v)| {
+        let residual = (v - fit.value(t)) / signal.gain;
+        [t - start, (v - signal.dark) / signal.gain, residual]
+    });
+    Ok(Fitted {
+        curve: if own.trigger_times.is_some() { curve } else { own.clone() },
+        shutter: own,
+        facts: facts(&fit),
+        report: report::text(name, &fit),
+        kind: fit.chosen.title(),
+        exposure_s: fit.exposure.value,
+        exposure_error_s: fit.exposure.error,
+        pulses: fit.frames.count,
+        pulse: fit.frames.fitted,
+        scatter: fit.frames.scatter,
+        light_lowers: fit.inverted,
+        explained: fit.test.explained,
+        rms: fit.best().rms,
+        triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
+        warnings: fit.warnings.iter().map(warning).collect(),
+        samples: fewer(samples.collect()),
+    })
+}
+
+/// A curve's shutter, so many seconds later.
+fn moved(shutter: Shutter, by: f64) -> Shutter {
+    let unit = shutter.unit();
+    let later = |t: Option<f64>| t.map(|t| shutter_fit::unit::rounded(t + unit.of(by), 12));
+    let Shutter { open_start, open_end, close_start, close_end, .. } = shutter;
+    let [open_start, open_end, close_start, close_end] = [open_start, open_end, close_start, close_end].map(later);
+    Shutter { open_start, open_end, close_start, close_end, ..shutter }
+}
+
+/// What the trace tells, in place of what its curve does.
+fn facts(fit: &Fit) -> Vec<Fact> {
+    let exposure = Fact::new("exposure", "exposure_s", fit.exposure.value, report::exposure(fit));
+    [
+        exposure.error(Some(fit.exposure.error)),
+        Fact::words("times", speed::times(fit).join("; ")),
+        Fact::words("efficiency", report::efficiency(fit)),
+        Fact::words("test", test(fit)),
+    ]
+    .into()
+}
+
+/// Does a curve explain the trace? Where what was recorded is another thing than the light, nothing tells that.
+fn test(fit: &Fit) -> &'static str {
+    const VOID: [&str; 5] = ["clipped", "cut_tail", "overload", "pulsed", "undershoot"];
+    let is_void = |it: &Warning| VOID.contains(&it.code());
+    match fit.from {
+        From::Trace => "no curve explains the trace: the flashes are at the trace's own times",
+        _ if !fit.test.explained => "no curve explains the trace",
+        _ if !fit.test.tested => "untested: there is too little dark to know the noise by",
+        _ if fit.exposure.error > 0.5 * fit.exposure.value => "untested: the trace tells too little",
+        _ if fit.warnings.iter().any(is_void) => "untested: what is recorded is not the light alone",
+        _ => "the curve explains the trace",
+    }
+}
+
+/// Why there is no fit; was it said which way light moves the signal?
+fn refusal(refusal: &Refusal, has_way: bool) -> Told {
+    if has_way && matches!(refusal, Refusal::NoPulse { .. }) {
+        let text = "no pulse: nothing stands out of the noise this way; does light move the signal the other way?";
+        return Told { text: text.into(), mend: Some("light"), about: "" };
+    }
+    told(refusal, "")
+}
+
+/// What is doubtful: the exposure, and so all, where nothing else is.
+fn warning(warning: &Warning) -> Told {
+    let about = match warning.code() {
+        code if code.starts_with("sync_") => "delay",
+        "noise" | "sharp_edges" => "times",
+        _ => "exposure",
+    };
+    told(warning, about)
+}
+
+fn told(it: &impl Tell, about: &'static str) -> Told {
+    let mend = match it.remedy() {
+        Some(Remedy::Columns(_)) => Some("signal"),
+        Some(Remedy::Mains | Remedy::Triggers | Remedy::Picture) | None => None,
+        Some(other) => Some(other.option()),
+    };
+    Told { text: it.to_string(), mend, about }
+}
+
+/// Of many samples the least and the greatest of neighbours.
+fn fewer<const N: usize>(samples: Vec<[f64; N]>) -> Vec<[f64; N]> {
+    if samples.len() <= MOST {
+        return samples;
+    }
+    let together = samples.len().div_ceil(MOST / 2);
+    let ends = |few: &[[f64; N]]| {
+        let by_value = |a: &&[f64; N], b: &&[f64; N]| a[1].total_cmp(&b[1]);
+        let ends = [few.iter().min_by(by_value), few.iter().max_by(by_value)];
+        let mut ends = ends.map(|end| end.copied().unwrap_or([0.0; N]));
+        ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        ends
+    };
+    samples.chunks(together).flat_map(ends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use strum::IntoEnumIterator;
+
+    use super::*;
+
+    #[test]
+    fn no_message_names_an_argument_of_the_program() {
+        let (refusals, warnings) = (Refusal::iter(), Warning::iter());
+        let all = refusals.map(|it| refusal(&it, true)).chain(warnings.map(|it| warning(&it)));
+        all.for_each(|Told { text, .. }| assert!(!text.contains("--"), "{text}"));
+    }
+}
