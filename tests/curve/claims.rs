@@ -24,7 +24,7 @@ const HELD: &[(&str, &[&str])] = &[
     ]),
     ("tests/curve/promises.rs::named_typical_curves", &["1 divided by the", "efficiency, at most 1"]),
     ("tests/curve/ticks.rs::the_worst_tick_of_a_typical_curve", &["the error can be many ticks", "0.89 tick was seen"]),
-    ("benches/host/speed_vs_error/every_f32.rs", &["asks for these at every"]),
+    ("benches/host/speed_vs_error/every_f32.rs", &["checks order and errors at"]),
     ("docs/internals/speed-vs-error.md", &["in the repository has the largest", "*Error* is the largest", "with 256 entries, reaches"]),
     // What is accepted.
     ("tests/curve/refusals.rs::rule_2_the_first_inner_time_passes_the_second_by_15_16", &["15/16"]),
