@@ -157,7 +157,7 @@ proven(f"cdf: a later time's place is at most {back} fine units earlier, its mas
        fall + 2 * SHARE * TRACE * 2**24 < TRACE < 4 * fall)
 moved, value = Fraction(LEAST_WAY_ERROR + WAY + 2, 2**61), (WOBBLE + CUTS + JOIN) / TRACE
 proven(f"cdf on a ramp: within {float(value + Fraction(1, 2)):.3f} ulp, of at least that of 2^-24, of the exact one at "
-       f"a time within 1/8 ulp and 2^{log2(moved):.2f} of the interval",
+       f"a time within 1/{2 ** (TIME_BITS - 24)} ulp and 2^{log2(moved):.2f} of the interval",
        value + SHARE * 2**24 + Fraction(1, 2) < 1 and moved < Fraction(1, 2**54))
 # On the plateau the area has 2^k to 2^(k+1) units, and the way to a time moves up by 61 - k, or one more for 2^k. Its
 # two ends are cut to units, one over the area has three roundings, and the product, low by less than 3, counts twice.

@@ -1,8 +1,8 @@
 //! From a time: the openness, the pdf, and the cdf.
 //!
-//! A cdf is the part of the exposure up to the time's *place* ([`ramp`](crate::ramp)), which is counted from the
-//! curve's end. It never steps back: a place is off by less than a quarter of the distance to that of the next time,
-//! measuring the part there loses far less than lies between two times, and all parts make up the whole.
+//! A cdf is the part of the exposure up to the time's *place* ([`ramp`](crate::ramp)), which is counted from a ramp's end.
+//! All parts make up the whole. From one time to the next it falls by an ulp at most, of at least that of 2⁻²⁴, by what
+//! measuring loses (proofs/search.py).
 
 use crate::exposure::Exposure;
 use crate::fixed::{ONE, nearest, power_of_two, times};
@@ -34,7 +34,7 @@ fn section(exposure: &Exposure, t: f32) -> Section<'_> {
     let side = Side::end_if(t > open || start == open);
     let (ramp, units) = (exposure.ramp(side), exposure.units());
     let time = units.of(t);
-    // An eighth of the distance to the next time, or less.
+    // A quarter of the distance to the next time, or less.
     let error = (time.abs() >> 26) + 32;
     let (from, place) = ramp.place_of_time(time, error, units);
     Section::Ramp(side, ramp, from, place)
