@@ -199,11 +199,15 @@ impl<'a> Table<'a> {
                 _ => fields.push(field.into()),
             }
         }
-        // Rows between blanks have settings, or names between commas, above them.
-        if self.form.delimiter == ' ' && fields.len() != self.width {
-            return inner.split(',').map(|field| field.trim().into()).collect();
+        // Names may stand between other marks than the rows; settings are no words between blanks.
+        let by = |mark: char| -> Vec<String> { inner.split(mark).map(|field| field.trim().into()).collect() };
+        let mut others = [',', ';', '\t'].map(by).into_iter();
+        let are_words = self.form.delimiter == ' ' && fields.len() != self.width;
+        match others.find(|other| other.len() == self.width && self.columns.len() > 1) {
+            Some(other) if are_words || fields.len() == 1 => other,
+            None if are_words => by(','),
+            _ => fields,
         }
-        fields
     }
 
     /// The last line with letters above the rows, if it is as wide as these, as names, or as units below names.

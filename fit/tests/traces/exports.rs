@@ -158,6 +158,7 @@ const EXPORTS: &[Export] = &[
     ("STM32", "ticks,adc\n", "{us},{adc}", "!\"ticks\""),
     ("numpy, with blanks", "# time (ms) light (V)\n", "{ms} {e}", "2 in ms, by its name"),
     ("numpy, with commas", "# time (ms),light (V)\n", "{ms} {e}", "2 in ms, by its name"),
+    ("names between other marks", "Time (ms);light (V)\n", "{ms},{e}", "2 in ms, by its name"),
     ("pandas", ",time_s,light\n", "{i},{t},{v}", "3 column 2, \"time_s\" in s, by its name"),
     ("R", "\"\",\"time_ms\",\"v\"\n", "\"{i}\",{ms},{v}", "3 in ms, by its name"),
     ("MATLAB, a timetable", "Time,v\n", "{t} sec,{v}", "!'0.000000 sec'"),
@@ -248,8 +249,8 @@ fn a_setting_gives_the_times() {
     let unsure = "Interval,2|Sample interval: 1e-300 s|Sample interval: 10|Sample rate: 100|\
         Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz|\
         Sample rate: 50 kHz (actual 100 kHz)|Max. sample rate: 1 GHz|Sample rate: 100.000 Hz|Sample rate: 1.000.000 Hz|\
-        Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz|Sample rate: 10 kHz/ch|Sample rate: 1 kHz\nDecimation,8|\
-        Sample Interval,1e-5,2e-5|Sample Interval,1e-5\nXUnits,Hz|Sample rate: 1 kHz\nSampling period,2 ms";
+        Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz|Sample rate: 10 kHz/ch|\
+        Sample rate: 1 kHz\nDecimation,8|Sample Interval,1e-5,2e-5|Sample Interval,1e-5\nXUnits,Hz|Sample rate: 1 kHz\nSampling period,2 ms";
     unsure.split('|').for_each(|above| assert!(times(above).is_err(), "{above}"));
     let first = |above: &str| times(&format!("Sample rate: 100 kHz\n{above}")).expect("a rate").trace.times[0];
     let six_before = "HOffset,-6.0E-03\nHUnit,s|X,Start\nSequence,-6.0ms";
