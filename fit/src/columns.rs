@@ -50,6 +50,7 @@ fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
     };
     let humming = |without| humming(fits, without, mains).filter(|found| !is_tail(found));
     let explains = |found: &KindFit| structure(&fits.with(found.clone()), Kind::Free).test.explained;
+    let alone = humming(plain);
     let line = fit(fits, &Signal { drift: Some(0.0), ..plain.solution.signal });
     // Behind a capacitor the dark is lower after the pulse than before.
     let [before, after] = dark(&fits.samples, plain).map(|part| mean(&plain.residuals[part]));
@@ -57,7 +58,8 @@ fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
     let coupled = may_be_coupled.then(|| coupled(fits)).flatten();
     if let Some(coupled) = &coupled {
         let [by_line, by_dark] = [&line, coupled].map(|found| by_dark(fits, found));
-        if in_dark(fits, &by_line) > FALLS * in_dark(fits, &by_dark) {
+        let by_hum = alone.as_ref().map_or(f64::INFINITY, |hum| in_dark(fits, hum));
+        if in_dark(fits, &by_line).min(FALLS * by_hum) > FALLS * in_dark(fits, &by_dark) {
             // What the shutter does that no curve has tells nothing of a capacitor.
             let agrees = in_dark(fits, coupled) < FALLS * in_dark(fits, &by_dark) && explains(coupled);
             let coupled = if agrees { coupled.clone() } else { by_dark };
@@ -65,7 +67,6 @@ fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
         }
     }
     let is_one = is_better(&line, plain, WORTH) && drifts_before(&line, &fits.samples) && !is_tail(&line);
-    let alone = humming(plain);
     let beside = if is_one {
         let both = humming(&line);
         // A hum of few periods may be all of the drift.

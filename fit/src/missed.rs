@@ -20,10 +20,12 @@ pub struct Parts {
 
 impl Parts {
     pub fn new(fits: &FrameFits, kind: Kind) -> Self {
-        let curve = fits.of(kind).solution.signal.curve;
+        let [curve, freest] = [kind, Kind::Free].map(|kind| fits.of(kind).solution.signal.curve);
         let room = (0.01 * curve.length()).max(1.5 * fits.step);
-        let from = fits.samples.partition_point(|bin| bin.to < curve.start - room);
-        let to = fits.samples.partition_point(|bin| bin.from <= curve.end() + room);
+        // The ramps that a simple curve leaves out are no dark, by which it could be judged.
+        let (start, end) = (curve.start.min(freest.start), curve.end().max(freest.end()));
+        let from = fits.samples.partition_point(|bin| bin.to < start - room);
+        let to = fits.samples.partition_point(|bin| bin.from <= end + room);
         Self { before: 0..from, pulse: from..to.max(from), after: to.max(from)..fits.samples.len() }
     }
 }

@@ -5,49 +5,7 @@ use std::f64::consts::{PI, TAU};
 use shutter_fit::trace::Trace;
 use strum::EnumIter;
 
-use crate::generator::{Random, circle};
-
-/// So many places at which the truth is worked out.
-const FINE: usize = 60_000;
-
-/// A shutter's openness over a trace, which lasts from 0 to 1.
-pub struct Openness {
-    pub at: Vec<f64>,
-    sums: Vec<f64>,
-}
-
-impl Openness {
-    pub fn new(f: impl Fn(f64) -> f64) -> Self {
-        let at: Vec<f64> = (0..FINE).map(|i| f((i as f64 + 0.5) / FINE as f64)).collect();
-        let mut sums = vec![0.0];
-        for v in &at {
-            sums.push(sums[sums.len() - 1] + v / FINE as f64);
-        }
-        Self { at, sums }
-    }
-
-    pub fn exposure(&self) -> f64 {
-        self.sums[FINE]
-    }
-
-    /// The mean around a time.
-    pub fn mean(&self, t: f64, width: f64) -> f64 {
-        let sum = |t: f64| {
-            let x = (t * FINE as f64).clamp(0.0, FINE as f64);
-            let i = (x as usize).min(FINE - 1);
-            self.sums[i] + (self.sums[i + 1] - self.sums[i]) * (x - i as f64)
-        };
-        (sum(t + 0.5 * width) - sum(t - 0.5 * width)) / width
-    }
-
-    /// When this share of the light has come.
-    pub fn trigger(&self, u: f64) -> f64 {
-        let target = u * self.exposure();
-        let i = self.sums.partition_point(|sum| *sum < target).clamp(1, FINE);
-        let part = (target - self.sums[i - 1]) / (self.sums[i] - self.sums[i - 1]);
-        (i as f64 - 1.0 + part) / FINE as f64
-    }
-}
+use crate::generator::{Case, Random, Truth, circle};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter)]
 pub enum Family {
@@ -72,16 +30,6 @@ pub enum Family {
     Shallow,
 }
 
-/// A trace of a shutter, and the truth.
-pub struct Measured {
-    pub truth: Openness,
-    pub trace: Trace,
-    /// The times are these many times the truth's.
-    pub scale: f64,
-    /// Another exposure that is as true: of shots that differ.
-    pub others: Vec<f64>,
-}
-
 /// A leaf's ramp from rest to rest.
 fn leaf(z: f64) -> f64 {
     let z = z.clamp(0.0, 1.0);
@@ -94,7 +42,7 @@ fn ringing(t: f64, periods: f64, decay: f64) -> f64 {
 }
 
 /// What the shutter does, where the recorder adds nothing.
-fn mechanics(family: Family, random: &mut Random) -> Openness {
+fn mechanics(family: Family, random: &mut Random) -> Truth {
     let start = random.within(0.25, 0.32);
     let length = random.within(0.3, 0.42);
     let (a, b) = (random.within(0.1, 0.3) * length, random.within(0.1, 0.3) * length);
@@ -106,7 +54,7 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         Family::Bounce | Family::DeepBounce => {
             let deep = if family == Family::Bounce { (0.01, 0.06) } else { (0.1, 0.35) };
             let (deep, fades) = (random.within(deep.0, deep.1), random.within(0.8, 2.0) * swing);
-            Openness::new(move |t| {
+            Truth::of(move |t| {
                 let since = t - open;
                 let back = deep * (-since / fades).exp() * (PI * since / swing).sin().abs();
                 if (0.0..close - open).contains(&since) { 1.0 - back } else { plain(t) }
@@ -115,13 +63,13 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         Family::Dip => {
             let at = open + random.within(0.15, 0.3) * (close - open);
             let (deep, wide) = (random.within(0.05, 0.09), random.within(0.1, 0.2) * (close - open));
-            Openness::new(move |t| plain(t) - deep * (-((t - at) / wide).powi(2)).exp() * f64::from(plain(t) >= 1.0))
+            Truth::of(move |t| plain(t) - deep * (-((t - at) / wide).powi(2)).exp() * f64::from(plain(t) >= 1.0))
         }
         // A magnet draws the blade beyond its place, where it rings until it rests.
         Family::Overshoot => {
             let (high, decay) = (random.within(0.05, 0.2), random.within(0.6, 1.5) * swing);
             let fall = random.within(0.02, 0.05) * length;
-            Openness::new(move |t| {
+            Truth::of(move |t| {
                 let rise = 1.0 - (1.0 - high) * ringing(t - start, 2.0 * swing, decay);
                 let open = if t < start { 0.0 } else { rise - high * (-(t - start) / decay).exp() };
                 let late = t - close;
@@ -131,7 +79,7 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         Family::Reopens => {
             let (high, wide) = (random.within(0.02, 0.12), random.within(0.05, 0.12) * length);
             let at = end + random.within(0.3, 0.8) * wide;
-            Openness::new(move |t| {
+            Truth::of(move |t| {
                 let x = (t - at) / wide;
                 plain(t) + if (0.0..1.0).contains(&x) { high * (PI * x).sin() } else { 0.0 }
             })
@@ -139,7 +87,7 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         // Two curtains before a round sensor, with an acceleration each.
         Family::Slit => {
             let (p, q) = (random.within(0.8, 1.3), random.within(0.8, 1.3));
-            Openness::new(move |t| {
+            Truth::of(move |t| {
                 let first = circle(((t - start) / a).clamp(0.0, 1.0).powf(p));
                 let second = circle(((t - close) / b).clamp(0.0, 1.0).powf(q));
                 first - second
@@ -151,7 +99,7 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
             // Two time constants in the relaxation, as thick cells have it.
             let slow = if family == Family::CutTail { random.within(4.0, 8.0) } else { 2.0 };
             let share = random.within(0.1, 0.3);
-            Openness::new(move |t| {
+            Truth::of(move |t| {
                 let late = (t - close).max(0.0) / closed;
                 let up = 1.0 - (-(t - start).max(0.0) / open).exp();
                 up * ((1.0 - share) * (-late).exp() + share * (-late / slow).exp())
@@ -160,7 +108,7 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         // A leaf that hardly moves when it is nearly closed.
         Family::Creep => {
             let slow = random.within(0.5, 1.5);
-            Openness::new(move |t| {
+            Truth::of(move |t| {
                 let late = (t - close).max(0.0) / b;
                 let down = 0.85 * (1.0 - late).max(0.0).powi(2) + 0.15 * (-late / slow).exp();
                 leaf((t - start) / a) * if late > 0.0 { down } else { 1.0 }
@@ -169,15 +117,15 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         // The lamp warms up, or the blades sag.
         Family::Sinks => {
             let by = random.within(0.005, 0.02);
-            Openness::new(move |t| plain(t) * (1.0 - by * ((t - open) / (close - open)).clamp(0.0, 1.0)))
+            Truth::of(move |t| plain(t) * (1.0 - by * ((t - open) / (close - open)).clamp(0.0, 1.0)))
         }
         // A dip of a hundredth for a fifth of the time.
         Family::Shallow => {
             let wide = 0.2 * length;
             let at = random.within(open + 0.5 * wide, close - 0.5 * wide);
-            Openness::new(move |t| plain(t) - 0.01 * f64::from((t - at).abs() < 0.5 * wide))
+            Truth::of(move |t| plain(t) - 0.01 * f64::from((t - at).abs() < 0.5 * wide))
         }
-        _ => Openness::new(plain),
+        _ => Truth::of(plain),
     }
 }
 
@@ -194,7 +142,7 @@ fn high_pass(values: &mut [f64], tau: f64, step: f64) {
 }
 
 /// A trace of a family.
-pub fn measured(family: Family, random: &mut Random) -> Measured {
+pub fn measured(family: Family, random: &mut Random) -> Case {
     let truth = mechanics(family, random);
     // Milliseconds to some tens, as the lamp's frequencies need.
     let scale = random.scale(0.01, 0.06);
@@ -203,7 +151,7 @@ pub fn measured(family: Family, random: &mut Random) -> Measured {
     let n = random.scale(least, most) as usize;
     let noise = random.scale(0.001, noisy);
     let lamp = lamp(family, scale, random);
-    let light = |t: f64| lamp(t) * truth.at[((t * FINE as f64) as usize).min(FINE - 1)];
+    let light = |t: f64| lamp(t) * truth.openness(t);
     // Many steps to a sample, so that no recorder sees a staircase.
     let fine: usize = 8;
     let step = 1.0 / (n * fine) as f64;
@@ -250,14 +198,14 @@ pub fn measured(family: Family, random: &mut Random) -> Measured {
                 for i in 0..n {
                     let t = (i as f64 + 0.5) / n as f64;
                     times.push(from + scale * t);
-                    values.push(shown.at[(t * FINE as f64) as usize] + noise * random.normal());
+                    values.push(shown.openness(t) + noise * random.normal());
                 }
             }
             others.push(second * truth.exposure());
         }
         _ => (),
     }
-    Measured { truth, trace: Trace { times, values }, scale, others }
+    Case { truth, trace: Trace { times, values }, scale, noise, others }
 }
 
 /// A lamp's light over the trace.
@@ -278,4 +226,42 @@ fn lamp(family: Family, scale: f64, random: &mut Random) -> Box<dyn Fn(f64) -> f
         }
         _ => Box::new(|_| 1.0),
     }
+}
+
+/// A leaf shutter before a sound card of one capacitor or two, of these frequencies in hertz: one shot or several, with
+/// so much dark before each and so much more from its opening on, in seconds; light may lower the signal.
+pub fn coupled(exposure: f64, poles: &[f64], window: (f64, f64), shots: u32, falls: bool, random: &mut Random) -> Case {
+    let rate = if random.within(0.0, 1.0) < 0.5 { 44_100.0 } else { 48_000.0 };
+    let noise = random.scale(0.001, 0.01);
+    let (a, b) = (random.within(0.1, 0.4) * exposure, random.within(0.1, 0.4) * exposure);
+    // A leaf's ramps let half of the light through.
+    let open = exposure - 0.5 * (a + b);
+    let (before, after) = window;
+    let length = before + after;
+    let shown = move |t: f64| leaf(t / a).min(leaf((a + open + b - t) / b));
+    let truth = Truth::of(|t| shown(t * length - before));
+    let (fine, n) = (16, (rate * length * f64::from(shots)) as usize);
+    let step = 1.0 / (rate * fine as f64);
+    let mut charges = vec![0.0; poles.len()];
+    let (mut times, mut values) = (Vec::new(), Vec::new());
+    for k in 0..n {
+        let mut sum = 0.0;
+        for i in 0..fine {
+            let t = (k * fine + i) as f64 * step + 0.5 * step;
+            let mut v = shown(t % length - before);
+            for (charge, hertz) in charges.iter_mut().zip(poles) {
+                let keeps = (-TAU * hertz * step).exp();
+                let now = *charge * keeps + v * (1.0 - keeps);
+                (v, *charge) = (v - 0.5 * (now + *charge), now);
+            }
+            sum += v / fine as f64;
+        }
+        let sign = if falls { -1.0 } else { 1.0 };
+        let v = sign * (sum + noise * random.normal());
+        times.push((k as f64 + 0.5) / rate);
+        values.push((12_000.0 * v).round());
+    }
+    // Which of several shots was fitted is not known.
+    let others = if shots > 1 { vec![truth.exposure() * length] } else { Vec::new() };
+    Case { truth, noise, trace: Trace { times, values }, scale: length, others }
 }

@@ -100,44 +100,58 @@ const OCTAVES: usize = 12;
 /// A ramp from 0 at 0 to 1 at 1.
 type Ramp = Box<dyn Fn(f64) -> f64>;
 
-/// The truth: a ramp, a plateau, a ramp in the time of the trace, which is from 0 to 1.
+/// So many places at which the truth is worked out.
+const FINE: usize = 60_000;
+
+/// The truth: an openness over time, integrated by sums.
 pub struct Truth {
-    opening: Ramp,
-    /// Seen backwards.
-    closing: Ramp,
-    /// Start to open, open, start to close, closed.
-    pub times: [f64; 4],
-    /// The integral at so many places from the first to the last time.
+    /// The openness, at even places from the first of the times to the last, and the integral up to each.
+    at: Vec<f64>,
     sums: Vec<f64>,
+    /// Start to open, open, start to close, closed; where that is not known, from the trace's start to its end.
+    pub times: [f64; 4],
 }
 
 impl Truth {
+    /// A ramp, a plateau, and a ramp that is seen backwards.
     pub fn new(opening: Ramp, closing: Ramp, times: [f64; 4]) -> Self {
-        let mut truth = Self { opening, closing, times, sums: vec![0.0] };
-        let n = 40_000;
-        let width = (times[3] - times[0]) / f64::from(n);
-        for i in 0..n {
-            let middle = times[0] + (f64::from(i) + 0.5) * width;
-            truth.sums.push(truth.sums[truth.sums.len() - 1] + width * truth.openness(middle));
+        let [start, open, close, end] = times;
+        let openness = |t: f64| match t {
+            _ if t < open => opening((t - start) / (open - start)),
+            _ if t <= close => 1.0,
+            _ => closing((end - t) / (end - close)),
+        };
+        Self::within(openness, times)
+    }
+
+    /// Any openness over a trace, which is from 0 to 1.
+    pub fn of(openness: impl Fn(f64) -> f64) -> Self {
+        Self::within(openness, [0.0, 0.0, 1.0, 1.0])
+    }
+
+    fn within(openness: impl Fn(f64) -> f64, times: [f64; 4]) -> Self {
+        let width = (times[3] - times[0]) / FINE as f64;
+        let at: Vec<f64> = (0..FINE).map(|i| openness(times[0] + (i as f64 + 0.5) * width)).collect();
+        let (mut sum, mut sums) = (0.0, vec![0.0]);
+        for v in &at {
+            sum += v * width;
+            sums.push(sum);
         }
-        truth
+        Self { at, sums, times }
+    }
+
+    /// How many of the places have gone by.
+    fn places(&self, t: f64) -> f64 {
+        (t - self.times[0]) / (self.times[3] - self.times[0]) * FINE as f64
     }
 
     pub fn openness(&self, t: f64) -> f64 {
-        let [start, open, close, end] = self.times;
-        if t < start || t > end {
-            0.0
-        } else if t < open {
-            (self.opening)((t - start) / (open - start))
-        } else if t <= close {
-            1.0
-        } else {
-            (self.closing)((end - t) / (end - close))
-        }
+        let place = self.places(t);
+        if (0.0..=FINE as f64).contains(&place) { self.at[(place as usize).min(FINE - 1)] } else { 0.0 }
     }
 
     pub fn exposure(&self) -> f64 {
-        self.sums[self.sums.len() - 1]
+        self.sums[FINE]
     }
 
     pub fn efficiency(&self) -> f64 {
@@ -145,21 +159,24 @@ impl Truth {
     }
 
     /// The integral up to a time.
-    pub fn collected(&self, t: f64) -> f64 {
-        let n = self.sums.len() - 1;
-        let x = (t - self.times[0]) / (self.times[3] - self.times[0]) * n as f64;
-        let x = x.clamp(0.0, n as f64);
-        let i = (x as usize).min(n - 1);
+    fn collected(&self, t: f64) -> f64 {
+        let x = self.places(t).clamp(0.0, FINE as f64);
+        let i = (x as usize).min(FINE - 1);
         self.sums[i] + (self.sums[i + 1] - self.sums[i]) * (x - i as f64)
+    }
+
+    /// The mean around a time.
+    pub fn mean(&self, t: f64, width: f64) -> f64 {
+        (self.collected(t + 0.5 * width) - self.collected(t - 0.5 * width)) / width
     }
 
     /// When the fraction `u` of the exposure is collected.
     pub fn trigger(&self, u: f64) -> f64 {
         let target = u * self.exposure();
-        let i = self.sums.partition_point(|sum| *sum < target).max(1);
+        let i = self.sums.partition_point(|sum| *sum < target).clamp(1, FINE);
         let part = (target - self.sums[i - 1]) / (self.sums[i] - self.sums[i - 1]);
-        let width = (self.times[3] - self.times[0]) / (self.sums.len() - 1) as f64;
-        self.times[0] + ((i - 1) as f64 + part) * width
+        let width = (self.times[3] - self.times[0]) / FINE as f64;
+        self.times[0] + (i as f64 - 1.0 + part) * width
     }
 }
 
@@ -235,6 +252,10 @@ pub struct Case {
     pub trace: Trace,
     /// The times are these many times the truth's.
     pub scale: f64,
+    /// The noise's share of the light.
+    pub noise: f64,
+    /// Another exposure that is as true: of shots that differ, and of those of which one is fitted.
+    pub others: Vec<f64>,
 }
 
 impl Case {
@@ -275,11 +296,7 @@ pub fn traced(truth: Truth, disturbance: Disturbance, n: usize, noise: f64, rand
     let mut values = Vec::with_capacity(n);
     for i in 0..n {
         let t = (i as f64 + 0.5) * step;
-        let f = if gathers {
-            (truth.collected(t + 0.5 * step) - truth.collected(t - 0.5 * step)) / step
-        } else {
-            truth.openness(t)
-        };
+        let f = if gathers { truth.mean(t, step) } else { truth.openness(t) };
         let fresh = random.normal();
         last = match disturbance {
             Disturbance::Coloured => 0.8 * last + 0.6 * fresh,
@@ -298,5 +315,5 @@ pub fn traced(truth: Truth, disturbance: Disturbance, n: usize, noise: f64, rand
         values.push(dark + light * (f + noise * last + beside));
     }
     let times = (0..n).map(|i| scale * (i as f64 + 0.5) * step).collect();
-    Case { truth, trace: Trace { times, values }, scale }
+    Case { truth, trace: Trace { times, values }, scale, noise, others: Vec::new() }
 }

@@ -15,12 +15,12 @@ mod numbers;
 mod ramp;
 use shutter_fit::unit;
 
-mod capacitors;
 mod exports;
 mod families;
 mod files;
 mod generator;
 mod integral;
+mod judge;
 mod physics;
 mod unseen;
 mod words;

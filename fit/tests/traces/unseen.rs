@@ -6,8 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use shutter_fit::trace::Trace;
 use strum::EnumIter;
 
-use crate::families::{Measured, Openness};
-use crate::generator::{Random, circle};
+use crate::generator::{Case, Random, Truth, circle};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter)]
 pub enum Mechanics {
@@ -102,7 +101,7 @@ fn polygon(sides: f64, far: f64) -> f64 {
     }
 }
 
-fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
+fn mechanics(mechanics: Mechanics, random: &mut Random) -> Truth {
     let (start, length) = (random.within(0.26, 0.33), random.within(0.26, 0.38));
     let (a, b) = (random.within(0.08, 0.4) * length, random.within(0.08, 0.4) * length);
     let end = start + length;
@@ -116,7 +115,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
             let (opens, closes, turn) = (ring(1.5 * u), ring(1.5 * v), PI * (0.45 + 0.45 * w));
             let lift = |x: f64| 1.0 - (x * turn).cos() + 0.15 * (x * turn).sin().powi(2);
             let (hidden, sides) = (0.05 + 0.15 * z, 3.0 + (5.0 * z).floor());
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let lifted = lift(both(&opens, &closes, t)) / lift(1.0);
                 polygon(sides, (1.1 + hidden) * lifted - hidden)
             })
@@ -130,7 +129,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
             let (start, travel) = (start.min(0.29) - 0.03, 0.5 * length + 0.08);
             let (late, faster) = (0.55 + 0.2 * z, 0.94 + 0.12 * w);
             let gate = |x: f64| (x - 0.08).max(0.0) / 0.92;
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let z = (t - start) / travel;
                 (gate(first.at(z)) - gate(second.at((z - late) * faster))).max(0.0)
             })
@@ -139,7 +138,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
             let curtain = |back: f64| Path::moved(Some(back), |_, speed| 1.0 - 0.6 * speed);
             let (first, second) = (curtain(0.1 + 0.4 * u), curtain(0.3 + 0.3 * v));
             let gate = |x: f64| ((x - 0.02) / 0.96).clamp(0.0, 1.0);
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let opened = gate(first.at((t - start) / (0.7 * a)));
                 (opened - gate(second.at((t - close) / (0.5 * b)))).max(0.0)
             })
@@ -157,7 +156,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
             };
             let (opens, closes) = (blade(0.2 + u, 0.15 + 0.5 * w), blade(0.2 + v, 0.25 + 0.4 * w));
             let (arm, b) = (1.4 + 2.5 * z, 0.6 * b);
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let x = opens.at((t - start) / a).min(1.0 - closes.at((t - close) / b));
                 let angle = (1.0 / arm).asin() * 1.08 * (2.0 * x.clamp(0.0, 1.0) - 1.0);
                 circle(0.5 + 0.5 * arm * angle.sin())
@@ -166,7 +165,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
         Mechanics::Falls => {
             let (above, slot) = (0.05 + 1.5 * u, 1.4 + 2.0 * v);
             let (from, to) = (f64::sqrt(above), f64::sqrt(above + slot + 1.0));
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let fallen = (from + (to - from) * ((t - start) / length).max(0.0)).powi(2) - from.powi(2);
                 fallen.clamp(0.0, 1.0) - (fallen - slot).clamp(0.0, 1.0)
             })
@@ -180,7 +179,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
                 let strip = |k: i32| (axis + wide * (f64::from(k) + 0.5) / 32.0) * slope + 0.5;
                 (0..32).map(|k| strip(k).clamp(0.0, 1.0)).sum::<f64>() / 32.0
             };
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let z = ((t - start) / length).clamp(0.0, 1.0);
                 let turned = (z + slower * z * (1.0 - z)) * (sector + 1.0) * 2.0 * half - half;
                 (edge(turned) - edge(turned - 2.0 * half * sector)).max(0.0)
@@ -194,7 +193,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
             // Seen from the other end.
             let freed = Path::moved(None, |x, speed| 1.0 - x - damping * speed);
             let (close, unit) = (start + 0.65 * length, 0.08 * length + 0.05 * b);
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let x = snaps.at((t - start) / a).min(1.0 - freed.at((t - close) / unit));
                 (x.abs() - hidden).max(0.0) / (1.0 - hidden)
             })
@@ -208,7 +207,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
                 })
             };
             let (heats, cools) = (wire(1.5 + 3.0 * u), wire(1.1 + 0.6 * v));
-            Openness::new(|t| both(&heats, &cools, t))
+            Truth::of(|t| both(&heats, &cools, t))
         }
         Mechanics::Crystal => {
             let cell = |first: f64, bias: f64| {
@@ -218,7 +217,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
                 })
             };
             let (opens, closes) = (cell(0.04 + 0.1 * u, w - 0.5), cell(0.04 + 0.1 * v, z - 0.5));
-            Openness::new(|t| both(&opens, &closes, t))
+            Truth::of(|t| both(&opens, &closes, t))
         }
         Mechanics::Pockels => {
             let (lag, share, damping) = (0.05 + 0.15 * u, 0.2 + 0.3 * v, 0.8 + 1.2 * w);
@@ -229,7 +228,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
                 (1.0 - share) * *volts + share * *strain
             });
             let unit = (0.008 + 0.012 * z) * length;
-            Openness::new(|t| {
+            Truth::of(|t| {
                 let turned = cell.at((t - start) / unit) - cell.at((t - close) / unit);
                 (FRAC_PI_2 * turned).sin().powi(2)
             })
@@ -247,7 +246,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
             }
             let peak = at.iter().copied().fold(0.0, f64::max);
             let glow = Path(at, STEPS as f64);
-            Openness::new(|t| (glow.at(t) / peak).min(1.0))
+            Truth::of(|t| (glow.at(t) / peak).min(1.0))
         }
         Mechanics::Slips => {
             let ring = |sticks: f64, inert: f64| {
@@ -262,7 +261,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
                 })
             };
             let (opens, closes) = (ring(0.03 + 0.1 * u, 0.02 + 0.05 * w), ring(0.03 + 0.1 * v, 0.02 + 0.05 * z));
-            Openness::new(|t| ((1.2 * both(&opens, &closes, t)).sin() / 1.2f64.sin()).powi(2))
+            Truth::of(|t| ((1.2 * both(&opens, &closes, t)).sin() / 1.2f64.sin()).powi(2))
         }
     }
 }
@@ -283,8 +282,8 @@ fn sines(n: usize, random: &mut Random) -> Vec<f64> {
     sum
 }
 
-/// A trace of a shutter by an instrument, and the noise's share of the light, by which its results may be off.
-pub fn measured(what: Mechanics, by: Instrument, random: &mut Random) -> (Measured, f64) {
+/// A trace of a shutter by an instrument.
+pub fn measured(what: Mechanics, by: Instrument, random: &mut Random) -> Case {
     let truth = mechanics(what, random);
     let few = by == Instrument::Few;
     let n = if few { random.scale(60.0, 400.0) } else { random.scale(600.0, 6000.0) } as usize;
@@ -330,5 +329,5 @@ pub fn measured(what: Mechanics, by: Instrument, random: &mut Random) -> (Measur
         times.drain(lost.clone());
         values.drain(lost);
     }
-    (Measured { truth, trace: Trace { times, values }, scale, others: Vec::new() }, noise)
+    Case { truth, trace: Trace { times, values }, scale, noise, others: Vec::new() }
 }
