@@ -146,12 +146,6 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
     let judged = if let Reason::Tolerance(_) = reason { Kind::Free } else { chosen };
     let Structure { mut test, hidden, .. } = structure::structure(fits, judged);
     test.at = fits.units.seconds(test.at);
-    // One that was asked for is judged like any other, where its own misses blind the test: by what another leaves.
-    let (own, least) = (&candidates[chosen as usize], candidates.iter().map(|it| it.rms).fold(f64::INFINITY, f64::min));
-    if reason == Reason::Asked && test.explained && own.delta_bic > 10.0 && own.rms > 1.2 * least {
-        (test.explained, test.tested) = (false, true);
-        test.share = (own.rms.powi(2) - least.powi(2)).sqrt();
-    }
     let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
     let from_trace = match chosen {
         _ if test.explained => None,
