@@ -5,7 +5,7 @@ use crate::fixed::{EIGHTH, FINE, LEAST_TOP, floor_bits};
 use crate::fraction::Side;
 use crate::octave::candidate::candidate;
 use crate::octave::certificate::certificate;
-use crate::octave::path::{Path, View};
+use crate::octave::path::Path;
 use crate::octave::span::Span;
 use crate::octave::{Octave, below};
 use crate::ramp::shape::Shape;
@@ -37,7 +37,7 @@ pub(crate) const fn build(exposure: &Exposure, shapes: &[Shape; 2], side: Side, 
     while i < 2 {
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
-        let (top, count) = on_ramp(&View { exposure, shapes, side, ramp }, rest);
+        let (top, count) = on_ramp(&Path::new(exposure, shapes, side, ramp), rest);
         tops[ramp as usize] = top + ((first as u32) << 23);
         first += count;
         i += 1;
@@ -47,23 +47,22 @@ pub(crate) const fn build(exposure: &Exposure, shapes: &[Shape; 2], side: Side, 
 
 /// Builds the octaves on a ramp. Returns the bits of its first top, and how many octaves it has.
 #[inline(never)]
-const fn on_ramp(view: &View, octaves: &mut [Octave]) -> (u32, usize) {
-    let range = range(view.exposure, view.side, view.ramp);
+const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
+    let range = range(path.exposure, path.side, path.ramp);
     if range[0] >= range[1] {
         // No octaves, so a search has to answer. A far ramp then begins at 1/2 or later, and is never looked up. A near
         // ramp is, by fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of
         // these, each has an index behind the far ramp's octaves, where all are NONE.
-        let far = view.exposure.join_fractions(view.side)[1];
+        let far = path.exposure.join_fractions(path.side)[1];
         return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
     }
-    let path = view.path();
     // Each move until something is missing, then each to its end, then the best again.
     let (mut trial, mut best, mut most) = (0, 0, 0.0);
     loop {
         let is_last = trial == 2 * MOVES.len();
         let tried = if is_last { best } else { trial % MOVES.len() };
         let top = top_beyond(range, MOVES[tried]);
-        let (count, served, is_whole) = try_top(view, top, trial < MOVES.len(), range, &path, octaves);
+        let (count, served, is_whole) = try_top(path, top, trial < MOVES.len(), range, octaves);
         if is_whole || is_last {
             return (top, count);
         }
@@ -79,11 +78,10 @@ const fn on_ramp(view: &View, octaves: &mut [Octave]) -> (u32, usize) {
 /// whether none is missing.
 #[inline(never)]
 const fn try_top(
-    view: &View,
+    path: &Path,
     first: u32,
     until_missing: bool,
     range: [f64; 2],
-    path: &Path,
     octaves: &mut [Octave],
 ) -> (usize, f32, bool) {
     let (mut index, mut count, mut served, mut is_whole) = (0, 0, 0.0, true);
@@ -97,7 +95,7 @@ const fn try_top(
             count = index + 1;
         }
         if let Some(span) = Span::new(range, top) {
-            octaves[index] = certified(view, path, &span);
+            octaves[index] = certified(path, &span);
             if octaves[index].exists() {
                 served += (span.to - span.from as f32) * if is_whole { 1024.0 } else { 1.0 };
             } else {
@@ -111,10 +109,10 @@ const fn try_top(
 
 /// The octave of a span, without a polynomial if the candidate has no certificate.
 #[inline(never)]
-const fn certified(view: &View, path: &Path, span: &Span) -> Octave {
-    let stretch = path.stretch(span, view.ramp.is(view.side));
-    let Some(candidate) = candidate(view, span, &stretch) else { return Octave::NONE };
-    let errors = certificate(view, &candidate, span, &stretch);
+const fn certified(path: &Path, span: &Span) -> Octave {
+    let stretch = path.stretch(span);
+    let Some(candidate) = candidate(path, span, &stretch) else { return Octave::NONE };
+    let errors = certificate(path, &candidate, span, &stretch);
     if errors.are_certain() { candidate.octave } else { Octave::NONE }
 }
 

@@ -1,7 +1,7 @@
 //! A candidate for an octave: the polynomial through the exact times at nine nodes, in the integers of the answer.
 
-use crate::fixed::{exponent, fixed_down, fixed_towards_0, power_of_two_f64};
-use crate::octave::path::{Stretch, View, root, singles, value};
+use crate::fixed::{exponent, fixed_towards_0, power_of_two_f64};
+use crate::octave::path::{Path, Stretch, root, singles, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
 
@@ -31,7 +31,7 @@ pub(crate) struct Candidate {
 
 /// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which Horner's
 /// sums fit 32 bits, but at least a unit of time. None if its numbers are out of range.
-pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Option<Candidate> {
+pub(crate) const fn candidate(path: &Path, span: &Span, stretch: &Stretch) -> Option<Candidate> {
     let c = interpolated(span, stretch);
     // |x| <= reach, with room for a center's rounding.
     let reach = span.half / span.width + 0.01;
@@ -50,31 +50,31 @@ pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Op
     if !(most > 0.0 && most < f32::MAX) {
         return None;
     }
-    let exponent = exponent(most) - 30;
-    let exponent = if exponent < view.exposure.units().exponent { view.exposure.units().exponent } else { exponent };
+    let (exponent, units) = (exponent(most) - 30, path.exposure.units());
+    let exponent = if exponent < units.exponent { units.exponent } else { exponent };
     // The factor is an `i32`.
-    if exponent - view.exposure.units().exponent > 30 {
+    if exponent - units.exponent > 30 {
         return None;
     }
     let step = power_of_two_f64(exponent);
-    let factor = 1 << (exponent - view.exposure.units().exponent);
+    let factor = 1 << (exponent - units.exponent);
     let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
     let mut k = DEGREE;
     while k > 0 {
         octave.c[DEGREE - k] = rounded(c[k], exponent);
         k -= 1;
     }
-    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * step, view.exposure.units().exponent);
+    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * step, units.exponent);
     // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }
-    let end = fixed_down(view.exposure.end_time(view.side), view.exposure.units().exponent);
-    octave.middle = if view.side.is_end() { end - middle } else { end + middle };
-    octave.factor = if view.side.is_end() { -factor } else { factor };
+    let end = units.of(path.exposure.end_time(path.side));
+    octave.middle = if path.side.is_end() { end - middle } else { end + middle };
+    octave.factor = if path.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,
-        middle_time: middle as f64 * power_of_two_f64(view.exposure.units().exponent),
+        middle_time: middle as f64 * power_of_two_f64(units.exponent),
         step,
         slope_bound_steps: slope_bound / step as f32,
         truncation_steps: HALF_TRUNCATION + 1.0 / factor as f32,

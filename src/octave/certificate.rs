@@ -6,10 +6,10 @@
 use crate::fixed::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{FIRST_STRIDE, KINDS, POSITION_BITS, SAMPLE_OFF, TIME_BITS, count, errors};
 use crate::octave::candidate::Candidate;
-use crate::octave::path::{Stretch, View, absolute, scale, singles, value};
+use crate::octave::path::{Path, Stretch, absolute, scale, singles, value};
 use crate::octave::span::Span;
 
-/// Below 0.19 ulp of a time; in an interval of 2²⁴ ticks below 0.19 tick (see [`View::size_of_time`]).
+/// Below 0.19 ulp of a time; in an interval of 2²⁴ ticks below 0.19 tick (see [`Path::size_of_time`]).
 pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// An error below 1/2 keeps the times of neighbouring `u` in order, also from one octave to the next: neighbours are at
 /// least an ulp of the lesser one apart.
@@ -40,7 +40,7 @@ const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 /// Bounds of an octave's errors, each over its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ErrorOverLimit {
-    /// In time. The limit is [`FORWARD_ERROR`] of [`View::size_of_time`].
+    /// In time. The limit is [`FORWARD_ERROR`] of [`Path::size_of_time`].
     pub(crate) forward: f32,
     /// In exposure. The limit is [`ULP_ERROR`] ulp of where the span begins, less what fractions are off.
     pub(crate) backward: f32,
@@ -57,12 +57,12 @@ impl ErrorOverLimit {
 
 /// The errors of a candidate on its stretch.
 #[inline(never)]
-pub(crate) const fn certificate(view: &View, candidate: &Candidate, span: &Span, stretch: &Stretch) -> ErrorOverLimit {
+pub(crate) const fn certificate(path: &Path, candidate: &Candidate, span: &Span, stretch: &Stretch) -> ErrorOverLimit {
     let Candidate { ref octave, middle_time, step, slope_bound_steps, .. } = *candidate;
     let mut time_steps = stretch.time;
     time_steps[0] -= middle_time;
     scale(&mut time_steps, 1.0 / step, 1.0);
-    let per_step = PerStep::new(view, candidate, span, stretch, &time_steps);
+    let per_step = PerStep::new(path, candidate, span, stretch, &time_steps);
     let weights = [[1.0, 0.0, 0.0, 0.0], per_step.backward];
     let (center, per_position) = span.offsets();
     // An offset beyond its word would wrap. It is greatest at an end.
@@ -106,9 +106,9 @@ struct PerStep {
 
 impl PerStep {
     #[inline(never)]
-    const fn new(view: &View, candidate: &Candidate, span: &Span, stretch: &Stretch, time_steps: &[f64; 4]) -> Self {
+    const fn new(path: &Path, candidate: &Candidate, span: &Span, stretch: &Stretch, time_steps: &[f64; 4]) -> Self {
         let Candidate { step, slope_bound_steps, truncation_steps, .. } = *candidate;
-        let (exposure, ends) = (view.exposure, [value(&stretch.time, -1.0), value(&stretch.time, 1.0)]);
+        let (exposure, ends) = (path.exposure, [value(&stretch.time, -1.0), value(&stretch.time, 1.0)]);
         let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
         // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
         let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
@@ -116,9 +116,9 @@ impl PerStep {
         let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, backward);
         let [t0, t1, t2, t3, ..] = singles(time_steps, 0.0, 1.0);
         // The least size is that of an end.
-        let [first, last] = [view.size_of_time(ends[0]), view.size_of_time(ends[1])];
+        let [first, last] = [path.size_of_time(ends[0]), path.size_of_time(ends[1])];
         let size = if first < last { first } else { last };
-        let goes_on = exposure.join_time(view.ramp) != exposure.end_time(view.ramp.other());
+        let goes_on = exposure.join_time(path.ramp) != exposure.end_time(path.ramp.other());
         Self {
             forward: step as f32 / size / FORWARD_ERROR,
             backward: [f0, f1, f2, f3],

@@ -16,49 +16,12 @@ const MOST_ROUNDS: usize = 40;
 /// The first step outwards of [`Path::parameter`], as a share of `p`: small, as each further one is twice as long.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// A ramp, seen from a side of the curve, for which octaves are built.
-pub(crate) struct View<'a> {
+/// A ramp, seen from a side of the curve, for which octaves are built: by powers of `p`, from 0 at the end that faces the
+/// side to 1. Coefficients from the constant up.
+pub(crate) struct Path<'a> {
     pub(crate) exposure: &'a Exposure,
-    pub(crate) shapes: &'a [Shape; 2],
     pub(crate) side: Side,
     pub(crate) ramp: Side,
-}
-
-impl View<'_> {
-    /// The whole ramp.
-    pub(crate) const fn path(&self) -> Path {
-        let Self { exposure, shapes, side, ramp, .. } = *self;
-        let shape = shapes[ramp as usize].seen_from(side);
-        let until_far = exposure.join_time(side.other()) as f64 - exposure.end_time(side) as f64;
-        // At p = 0: the side's end, or the far ramp's join.
-        let (t0, u0) = if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), exposure.join_fractions(side)[1]) };
-        let [t1, t2, t3] = shape.time_powers();
-        let [u1, u2, u3, u4, u5, u6] = shape.exposure_powers();
-        let mut fraction = [0.0, u1, u2, u3, u4, u5, u6];
-        scale(&mut fraction, exposure.per_area, 1.0);
-        fraction[0] = u0;
-        Path { openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
-    }
-
-    /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
-    /// the curve runs across time 0; but at most the interval, however far from time 0 that is.
-    #[inline(never)]
-    pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
-        let [start, end] = [self.exposure.end_time(Side::Start), self.exposure.end_time(Side::End)];
-        let size = if !(start < 0.0 && end > 0.0) {
-            let time = if self.side.is_end() { end as f64 - since_end } else { start as f64 + since_end };
-            (time as f32).abs()
-        } else if end > -start {
-            end
-        } else {
-            -start
-        };
-        if size < end - start { size } else { end - start }
-    }
-}
-
-/// A ramp by powers of `p`, from 0 at the end that faces the side to 1. Coefficients from the constant up.
-pub(crate) struct Path {
     openness: [f64; 4],
     /// The time since the side's end.
     time: [f64; 4],
@@ -77,7 +40,36 @@ pub(crate) struct Stretch {
     pub(crate) is_joined: bool,
 }
 
-impl Path {
+impl<'a> Path<'a> {
+    pub(crate) const fn new(exposure: &'a Exposure, shapes: &[Shape; 2], side: Side, ramp: Side) -> Self {
+        let shape = shapes[ramp as usize].seen_from(side);
+        let until_far = exposure.join_time(side.other()) as f64 - exposure.end_time(side) as f64;
+        // At p = 0: the side's end, or the far ramp's join.
+        let (t0, u0) = if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), exposure.join_fractions(side)[1]) };
+        let [t1, t2, t3] = shape.time_powers();
+        let [u1, u2, u3, u4, u5, u6] = shape.exposure_powers();
+        let mut fraction = [0.0, u1, u2, u3, u4, u5, u6];
+        scale(&mut fraction, exposure.per_area, 1.0);
+        fraction[0] = u0;
+        Self { exposure, side, ramp, openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
+    }
+
+    /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
+    /// the curve runs across time 0; but at most the interval, however far from time 0 that is.
+    #[inline(never)]
+    pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
+        let [start, end] = [self.exposure.end_time(Side::Start), self.exposure.end_time(Side::End)];
+        let size = if !(start < 0.0 && end > 0.0) {
+            let time = if self.side.is_end() { end as f64 - since_end } else { start as f64 + since_end };
+            (time as f32).abs()
+        } else if end > -start {
+            end
+        } else {
+            -start
+        };
+        if size < end - start { size } else { end - start }
+    }
+
     /// A `p` with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is near, not the
     /// nearest: farther out, a certificate is only stricter.
     #[inline(never)]
@@ -102,20 +94,25 @@ impl Path {
         }
     }
 
-    /// The stretch that has all fractions of a span. Its last `p` may be the ramp's join, or else its first.
+    /// The stretch that has all fractions of a span.
     #[inline(never)]
-    pub(crate) const fn stretch(&self, span: &Span, joins_last: bool) -> Stretch {
+    pub(crate) const fn stretch(&self, span: &Span) -> Stretch {
         let Span { middle, half, power, .. } = *span;
         let first = self.parameter((middle - half) as f64, false);
         let last = self.parameter((middle + half) as f64, true);
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-        let Self { mut openness, mut time, fraction: mut position } = *self;
+        let Self { mut openness, mut time, fraction: mut position, .. } = *self;
         recentred(&mut openness, middle, half);
         recentred(&mut time, middle, half);
         recentred(&mut position, middle, half);
         position[0] -= power as f64;
         scale(&mut position, (WORD / power) as f64, 1.0);
-        Stretch { openness, time, position, is_joined: if joins_last { last == 1.0 } else { first == 0.0 } }
+        Stretch {
+            openness,
+            time,
+            position,
+            is_joined: if self.ramp.is(self.side) { last == 1.0 } else { first == 0.0 },
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::fraction::Side;
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES, candidate};
 use crate::octave::certificate::{ErrorOverLimit, FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, ULP_ERROR, certificate};
-use crate::octave::path::{Path, Stretch, View, value};
+use crate::octave::path::{Path, Stretch, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave, below};
 use crate::ramp::bezier::CubicBezier;
@@ -50,12 +50,11 @@ impl Truth {
             let mut octaves = [Octave::NONE; OCTAVES];
             let tops = build(&exposure, &shapes, side, &mut octaves);
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
-                let this = View { exposure: &exposure, shapes: &shapes, side, ramp };
-                let (range, path) = (range(&exposure, side, ramp), this.path());
+                let (range, path) = (range(&exposure, side, ramp), Path::new(&exposure, &shapes, side, ramp));
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, below(steps, index)) {
                         self.octaves += 1;
-                        this.judge(octave, &path, &span, &exact, samples, &mut self.greatest);
+                        path.judge(octave, &span, &exact, samples, &mut self.greatest);
                     }
                 }
             }
@@ -63,16 +62,15 @@ impl Truth {
     }
 }
 
-impl View<'_> {
+impl Path<'_> {
     /// What was built of a span: the polynomial, and the stretch that it is held against.
-    fn built(&self, span: &Span, path: &Path) -> (Candidate, Stretch) {
-        let stretch = path.stretch(span, self.ramp.is(self.side));
+    fn built(&self, span: &Span) -> (Candidate, Stretch) {
+        let stretch = self.stretch(span);
         (candidate(self, span, &stretch).expect("it was built"), stretch)
     }
 
-    #[allow(clippy::too_many_arguments)]
-    fn judge(&self, octave: &Octave, path: &Path, span: &Span, exact: &Exact, samples: u32, greatest: &mut [f64; 2]) {
-        let (candidate, stretch) = self.built(span, path);
+    fn judge(&self, octave: &Octave, span: &Span, exact: &Exact, samples: u32, greatest: &mut [f64; 2]) {
+        let (candidate, stretch) = self.built(span);
         assert_eq!(candidate.octave, *octave);
         let bounds = certificate(self, &candidate, span, &stretch);
         let start = fixed_down(self.exposure.end_time(self.side), self.exposure.units().exponent);
@@ -167,15 +165,14 @@ fn an_offset_beyond_its_word_is_refused() {
     let (exposure, shapes) = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
     let mut judged = 0;
     for side in Side::BOTH {
-        let this = View { exposure: &exposure, shapes: &shapes, side, ramp: side };
+        let path = Path::new(&exposure, &shapes, side, side);
         let mut octaves = [Octave::NONE; 8];
         let tops = build(&exposure, &shapes, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
             let Some(span) = Span::new(range(&exposure, side, side), below(tops[side as usize], index)) else {
                 continue;
             };
-            let path = this.path();
-            let (candidate, mut stretch) = this.built(&span, &path);
+            let (candidate, mut stretch) = path.built(&span);
             let (center, per_position) = span.offsets();
             let position = stretch.position;
             for to in [0.4998, 0.49991, 0.51, 0.75, 1.0, 1.5] {
@@ -184,7 +181,7 @@ fn an_offset_beyond_its_word_is_refused() {
                     let offset = (value(&position, end) - center) * per_position;
                     stretch.position = position;
                     stretch.position[0] += (end * to - offset) / per_position;
-                    let bounds = certificate(&this, &candidate, &span, &stretch);
+                    let bounds = certificate(&path, &candidate, &span, &stretch);
                     let is_refused = bounds == ErrorOverLimit::REFUSED;
                     assert_eq!(is_refused, to > 0.4999, "{to} at {end}: {bounds:?}");
                     judged += 1;
