@@ -2,8 +2,8 @@
 
 use core::fmt;
 
+use crate::rate::Hz;
 use crate::text::Text;
-use crate::trigger::ticks::Hz;
 
 /// A part of a curve, in an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

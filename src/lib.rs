@@ -117,10 +117,11 @@
 #![forbid(unsafe_code)]
 
 // Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` those from a time to its
-// fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and `error`:
+// fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and `error`,
+// which needs `text` and `rate`:
 //
+// fixed     masses, times and places as whole numbers
 // fraction  an end of the curve, and a fraction counted from it
-// number    units, pairs of `f32`, polynomials of pairs, a time before it is rounded
 // search    where a polynomial reaches a target, and the proof that it does
 // ramp      one Bezier: its mass and time from either end, when a mass has been collected
 // domain    which curves are accepted
@@ -145,6 +146,7 @@ mod fraction;
 mod inverse;
 mod octave;
 mod ramp;
+mod rate;
 mod search;
 mod shutter;
 mod text;
@@ -152,19 +154,14 @@ mod trigger;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
+pub use rate::Hz;
 #[cfg(feature = "_measure")]
 pub use search::MAX_EVALUATIONS;
 pub use shutter::ShutterCurve;
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
 pub use trigger::pulse::Pulse;
-pub use trigger::ticks::Hz;
 pub use trigger::timed::TimedCurve;
 
 #[doc = include_str!("../docs/accuracy.md")]
 #[cfg(doc)]
 pub mod accuracy {}
-
-/// The README's code, compiled.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-mod readme {}

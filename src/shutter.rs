@@ -7,7 +7,8 @@ use crate::error::{CurveError, Part, ScheduleError, tried};
 use crate::fraction::Side;
 use crate::inverse::Inverse;
 use crate::ramp::bezier::CubicBezier;
-use crate::trigger::ticks::{Hz, direct_triggers};
+use crate::rate::Hz;
+use crate::trigger::ticks::direct_triggers;
 use crate::trigger::timed::TimedCurve;
 
 /// A shutter's openness over time: an opening cubic Bezier, a fully open plateau and a closing cubic Bezier.

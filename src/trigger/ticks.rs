@@ -4,26 +4,13 @@ use crate::error::ScheduleError;
 use crate::fixed::DOUBLE_WORD;
 use crate::fraction::{Fraction, Side};
 use crate::inverse::Inverse;
+use crate::rate::Hz;
 
 /// An interval has at most 2^`TICK_BITS` ticks: half of what a timer of 32 bits counts, so that the timer tells before
 /// from after.
 const TICK_BITS: i32 = 31;
 /// The most triggers in a frame: so `2i + 1` and `2n` are whole numbers of 24 bits, exact as `f32`.
 pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
-
-/// The rate of a timer, in ticks per second.
-///
-/// ```
-/// use shutter_curve::{Hz, ShutterCurve, expect};
-/// let curve: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-/// // A rate of `fugit`, as a HAL returns it.
-/// let rate = fugit::MegahertzU32::MHz(1);
-/// assert_eq!(curve.at(Hz(rate.to_Hz()))?.length(), 10_000);
-/// # Ok::<(), shutter_curve::ScheduleError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Hz(pub u32);
 
 /// The ticks of one frame: of the triggers, or the pulses, of one exposure.
 #[derive(Clone)]

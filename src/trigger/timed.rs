@@ -2,9 +2,10 @@
 
 use crate::error::{ScheduleError, tried};
 use crate::inverse::Inverse;
+use crate::rate::Hz;
 use crate::trigger::iterator::{PulseTicks, TriggerTicks};
 use crate::trigger::pulse::{Pulse, Pulses};
-use crate::trigger::ticks::{Hz, MOST_TRIGGERS, TickScale, Ticks};
+use crate::trigger::ticks::{MOST_TRIGGERS, TickScale, Ticks};
 
 /// A curve on a timer of a known rate, from [`ShutterCurve::at`](crate::ShutterCurve::at): it plans frames of triggers
 /// and pulses, in the timer's ticks.

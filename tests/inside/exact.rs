@@ -9,10 +9,11 @@ use crate::inverse::Inverse;
 use crate::octave::build::{build, range};
 use crate::octave::{Octave, below, bound, times_high_by_halves};
 use crate::ramp::bezier::CubicBezier;
+use crate::rate::Hz;
 use crate::search::{MAX_EVALUATIONS, Series};
 use crate::support::curves::{Rng, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
-use crate::trigger::ticks::{Hz, TickScale};
+use crate::trigger::ticks::TickScale;
 
 /// Numbers of all lengths, and those next to powers of two.
 fn numbers(rng: &mut Rng, n: usize) -> Vec<i64> {

@@ -22,6 +22,8 @@ mod inverse;
 mod octave;
 #[path = "../../src/ramp/mod.rs"]
 mod ramp;
+#[path = "../../src/rate.rs"]
+mod rate;
 #[path = "../../src/search.rs"]
 mod search;
 #[path = "../../src/shutter.rs"]
@@ -39,9 +41,9 @@ mod exact;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
+pub use rate::Hz;
 pub use search::MAX_EVALUATIONS;
 pub use shutter::ShutterCurve;
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
 pub use trigger::pulse::Pulse;
-pub use trigger::ticks::Hz;
 pub use trigger::timed::TimedCurve;
