@@ -248,29 +248,25 @@ fn later(fitted: &Signal, &Shot { pulses, frame, .. }: &Shot, like: &Frame) -> M
 }
 
 /// The delay with its standard errors, and how shots differ, for a report.
-pub fn told(delay: Option<&Delay>, unit: Unit) -> String {
+pub fn told(delay: Option<&Delay>, unit: Unit) -> [String; 2] {
     let Some(delay) = delay else {
-        return "unknown: the column of the sync tells it, or the time of its edge".into();
+        return ["unknown: the column of the sync tells it, or the time of its edge".into(), String::new()];
     };
     let digits = |error: f64| short(unit.of(error), 2);
     let value = unit.plus_minus(delay.mean(), delay.error());
-    let trigger = digits(delay.trigger_error());
-    let mut told = format!("{value} to the opening, ± {trigger} to any trigger\nspread       ");
+    let told = format!("{value} to the opening, ± {} to any trigger", digits(delay.trigger_error()));
     let (Some(spread), Some(worst)) = (delay.spread(), delay.worst()) else {
-        return told + "unknown: one shot does not tell how shots differ";
+        return [told, "unknown: one shot does not tell how shots differ".into()];
     };
     let n = delay.shots.len();
     // The standard error of a standard deviation.
     let error = spread / (2.0 * (n - 1) as f64).sqrt();
-    let spread_told = unit.plus_minus(spread, error);
-    told += &format!("{spread_told} between {n} shots, the worst {} off", digits(worst));
+    let mut between = format!("{} between {n} shots, the worst {} off", unit.plus_minus(spread, error), digits(worst));
     if 2.0 * delay.measuring > spread {
-        told += &format!(
-            "\n             each is measured to ± {} only: coarse samples or a slow edge",
-            digits(delay.measuring),
-        );
+        let measured = digits(delay.measuring);
+        between += &format!("\n             each is measured to ± {measured} only: coarse samples or a slow edge");
     }
-    told
+    [told, between]
 }
 
 /// What a sync does, for a report.

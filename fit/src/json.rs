@@ -1,49 +1,32 @@
 //! A fit for another program: one object, whose names and codes stay as they are.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use crate::delay::Delay;
 use crate::errors::Measured;
+use crate::fact;
 use crate::outcome::{Fit, From};
-use crate::trace::{Clock, Reading, Warning};
+use crate::report::facts;
+use crate::trace::{Clock, Reading, Tell, Warning};
 
 /// The fit of the trace `name`, with all warnings about it, as an object of JSON. What is not known is null, and all
 /// times but the delay count from the trace's time 0.
 pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
-    let [_, open_s, closes_s, closed_s] = fit.best().signal.curve.times();
     let (unit, rate_hz) = match fit.reading.as_ref().map(|reading| reading.clock) {
         Some(Clock::Unit(unit)) => (Some(unit.name()), None),
         Some(Clock::Rate(hertz)) => (None, Some(hertz)),
         None => (None, None),
     };
-    let switch = fit.delay.as_ref().and_then(|delay| delay.switch);
-    let of_delay = |of: fn(&Delay) -> f64| fit.delay.as_ref().map(of);
-    let told = |warning: &Warning| json!({ "code": warning.code(), "text": warning.to_string() });
-    json!({
-        "trace": name,
+    let mut all = Map::new();
+    all.insert("trace".into(), json!(name));
+    all.append(&mut fact::numbers(&facts(fit)));
+    // What is not known is null.
+    for error in ["efficiency_error", "delay_error_s"] {
+        all.entry(error).or_insert(Value::Null);
+    }
+    let told: Vec<_> = warnings.iter().map(Tell::message).collect();
+    let more = json!({
         "model": fit.chosen.title(),
         "because": crate::report::because(fit),
-        "exposure_s": fit.exposure.value,
-        "exposure_error_s": fit.exposure.error,
-        "efficiency": fit.efficiency.value,
-        "efficiency_error": fit.most_efficiency().is_none().then_some(fit.efficiency.error),
-        "efficiency_most": fit.most_efficiency(),
-        "nominal_s": fit.nominal,
-        "delay_s": of_delay(Delay::mean),
-        "delay_error_s": of_delay(Delay::error),
-        "delay_trigger_error_s": of_delay(Delay::trigger_error),
-        "delay_spread_s": fit.delay.as_ref().and_then(Delay::spread),
-        "delay_worst_s": fit.delay.as_ref().and_then(Delay::worst),
-        "sync_falls": switch.map(|switch| switch.falls()),
-        "sync_threshold": switch.map(|switch| switch.threshold),
-        "delay_shots": fit.delay.as_ref().map(|delay| delay.shots.len()),
-        "opens_s": fit.opens,
-        "open_s": open_s,
-        "closes_s": closes_s,
-        "closed_s": closed_s,
-        "parts_error_s": (fit.from == From::Model).then(|| fit.parts.map(|part| part.error)),
-        "half_light_s": fit.half_light(),
-        "rise_fall_s": fit.rise_and_fall(),
         "triggers": triggers(&fit.triggers),
         "triggers_from": if fit.from == From::Model { "model" } else { "trace" },
         "model_triggers": triggers(&fit.model_triggers),
@@ -62,8 +45,12 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
             "structure_at_s": fit.test.at,
             "rms": fit.best().rms,
         },
-        "warnings": warnings.iter().map(told).collect::<Value>(),
-    })
+        "warnings": told,
+    });
+    if let Value::Object(mut more) = more {
+        all.append(&mut more);
+    }
+    all.into()
 }
 
 fn triggers(of: &[Measured]) -> Value {

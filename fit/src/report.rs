@@ -3,9 +3,12 @@
 use std::fmt::{self, Write};
 use std::ops::Range;
 
+use serde_json::{Value, json};
+
 use crate::curve::fractions;
-use crate::delay;
+use crate::delay::{self, Delay};
 use crate::errors::Measured;
+use crate::fact::{self, Fact};
 use crate::outcome::{Fit, From, Reason, Test, Tolerance};
 use crate::signal::Kind;
 use crate::speed;
@@ -81,32 +84,61 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
     writeln!(out, "fit          {}", judgement(fit))
 }
 
-/// The chosen curve, and what it is good for.
 fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
-    let (unit, places) = (fit.unit(), speed::places(fit));
-    let curve = &fit.best().signal.curve;
-    let show = |time: f64| fixed(unit.of(time), places);
-    let [start, open_end, close_start, end] = curve.times().map(show);
-    let unit = unit.name();
-    writeln!(out, "opens        from {start} to {open_end} {unit}")?;
-    writeln!(out, "closes       from {close_start} to {end} {unit}")?;
-    writeln!(out, "delay        {}", delay::told(fit.delay.as_ref(), fit.unit()))?;
-    if fit.chosen > Kind::Trapezoid {
-        let [o, c] = curve.controls.map(|controls| controls.map(|x| trimmed(x, 3)).join(" "));
-        writeln!(out, "ramps        x1 y1 x2 y2: {o} opening, {c} closing")?;
-        writeln!(out, "             (the closing ramp seen backwards; fractions of each ramp)")?;
-    }
-    writeln!(out, "tester       {}", speed::times(fit).join("\n             "))?;
-    writeln!(out, "exposure     {}{}", exposure(fit), source(fit))?;
-    if let Some(speed) = speed::speed(fit) {
-        writeln!(out, "speed        {speed}")?;
-    }
-    let why = fit.most_efficiency().map_or("", |_| ": a soft start or end does not show");
-    writeln!(out, "efficiency   {}{why}", efficiency(fit))?;
-    if fit.peak < 1.0 {
-        writeln!(out, "peak         {} % of full light", short(100.0 * fit.peak, 4))?;
+    for (label, told) in fact::lines(&facts(fit)) {
+        writeln!(out, "{label:13}{told}")?;
     }
     writeln!(out, "             (standard errors behind ±)")
+}
+
+/// The chosen curve, and what it is good for: times are in seconds, and count from the trace's time 0.
+pub fn facts(fit: &Fit) -> Vec<Fact> {
+    let (unit, places) = (fit.unit(), speed::places(fit));
+    let curve = &fit.best().signal.curve;
+    let [_, open_s, closes_s, closed_s] = curve.times();
+    let [start, open_end, close_start, end] = curve.times().map(|time| fixed(unit.of(time), places));
+    let name = unit.name();
+    let (delay, [to_opening, spread]) = (fit.delay.as_ref(), delay::told(fit.delay.as_ref(), unit));
+    let of_delay = |of: fn(&Delay) -> f64| delay.map(of);
+    let switch = delay.and_then(|delay| delay.switch);
+    let ramps = (fit.chosen > Kind::Trapezoid).then(|| {
+        let [o, c] = curve.controls.map(|controls| controls.map(|x| trimmed(x, 3)).join(" "));
+        let told = "(the closing ramp seen backwards; fractions of each ramp)";
+        Fact::words("ramps", format!("x1 y1 x2 y2: {o} opening, {c} closing\n             {told}"))
+    });
+    let why = fit.most_efficiency().map_or("", |_| ": a soft start or end does not show");
+    let most = fit.most_efficiency();
+    let peak = (fit.peak < 1.0).then(|| format!("{} % of full light", short(100.0 * fit.peak, 4)));
+    let silent = |key, value: Value| Fact::new("", key, value, "");
+    let delays = vec![
+        Fact::new("delay", "delay_s", of_delay(Delay::mean), to_opening).error(of_delay(Delay::error)),
+        silent("delay_trigger_error_s", json!(of_delay(Delay::trigger_error))),
+        Fact::new("spread", "delay_spread_s", delay.and_then(Delay::spread), spread),
+        silent("delay_worst_s", json!(delay.and_then(Delay::worst))),
+        silent("delay_shots", json!(delay.map(|delay| delay.shots.len()))),
+        silent("sync_falls", json!(switch.map(|switch| switch.falls()))),
+        silent("sync_threshold", json!(switch.map(|switch| switch.threshold))),
+    ];
+    let light = vec![
+        Fact::words("tester", speed::times(fit).join("\n             ")),
+        silent("half_light_s", json!(fit.half_light())),
+        silent("rise_fall_s", json!(fit.rise_and_fall())),
+        Fact::new("exposure", "exposure_s", fit.exposure.value, exposure(fit) + &source(fit))
+            .error(Some(fit.exposure.error)),
+        Fact::new("speed", "nominal_s", fit.nominal, speed::speed(fit).unwrap_or_default()),
+        Fact::new("efficiency", "efficiency", fit.efficiency.value, efficiency(fit) + why)
+            .error(Some(fit.efficiency.error).filter(|_| most.is_none())),
+        silent("efficiency_most", json!(most)),
+        Fact::words("peak", peak.unwrap_or_default()),
+    ];
+    let curve = vec![
+        Fact::new("opens", "opens_s", fit.opens, format!("from {start} to {open_end} {name}")),
+        silent("open_s", json!(open_s)),
+        Fact::new("closes", "closes_s", closes_s, format!("from {close_start} to {end} {name}")),
+        silent("closed_s", json!(closed_s)),
+        silent("parts_error_s", json!((fit.from == From::Model).then(|| fit.parts.map(|part| part.error)))),
+    ];
+    [curve, delays, ramps.into_iter().collect(), light].concat()
 }
 
 fn judgement(fit: &Fit) -> String {

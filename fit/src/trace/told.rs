@@ -10,10 +10,12 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::samples::{CONTRAST, LARGEST};
+use crate::fact::Message;
 use crate::unit::{self, short};
 
 /// Why a trace cannot be fitted.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "strum", derive(strum::EnumIter))]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
@@ -421,9 +423,15 @@ impl Remedy<'_> {
 }
 
 /// What is told of a trace.
-pub trait Tell: Display {
+pub trait Tell: Display + Serialize + Sized {
     /// The setting that mends it, if there is one.
     fn remedy(&self) -> Option<Remedy<'_>>;
+
+    /// Its code, its words and the setting that mends it.
+    fn message(&self) -> Message {
+        let code = serde_variant::to_variant_name(self).unwrap_or_default();
+        Message { code, text: self.to_string(), remedy: self.remedy().map(|remedy| remedy.option()) }
+    }
 
     /// As the program tells it, with its option.
     fn with_option(&self) -> String {
