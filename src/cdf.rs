@@ -1,8 +1,8 @@
 //! From a time: the openness, the pdf, and the cdf.
 //!
-//! A cdf is the part of the exposure up to the time's *place* ([`ramp`](crate::ramp)), which is counted from a ramp's end.
-//! All parts make up the whole. From one time to the next it falls by an ulp at most, of at least that of 2⁻²⁴, by what
-//! measuring loses (proofs/search.py).
+//! A cdf is the part of the exposure up to the time's *place* ([`ramp`](crate::ramp)), which is counted from a ramp's
+//! end. All parts make up the whole. From one time to the next it falls by an ulp at most, of at least that of 2⁻²⁴, by
+//! what measuring loses (proofs/search.py).
 
 use crate::exposure::Exposure;
 use crate::fixed::{ONE, nearest, power_of_two, times};

@@ -30,9 +30,15 @@ fn curves() -> Vec<Curve> {
     let straight = |[a, b]: [f32; 2], [f0, f3]: [f32; 2]| {
         std::array::from_fn(|k| (a + (b - a) * k as f32 / 3.0, f0 + (f3 - f0) * k as f32 / 3.0))
     };
-    for [a, b, c, d] in
-        [[0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 2.0], [-1.0, -1e-6, 1e-5, 3.0], [4e3, 4e3, 4001.0, 4001.0]]
-    {
+    for [a, b, c, d] in [
+        [0.0, 0.0, 1.0, 1.0],
+        [0.0, 1.0, 1.0, 2.0],
+        [-1.0, -1e-6, 1e-5, 3.0],
+        [4e3, 4e3, 4001.0, 4001.0],
+        // 2³¹ ticks and a trace of one at 2¹¹ Hz; and less than a tick at most rates.
+        [-power_of_two(-24), 1.0, 1.0, power_of_two(20)],
+        [0.0, 0.0, 1.7e-12, 1.7e-12],
+    ] {
         curves.push(Curve::shutter(straight([a, b], [0.0, 1.0]), straight([c, d], [1.0, 0.0])));
     }
     // The most that the coefficients of a mass cancel: `most` of proofs/domain.py.
@@ -126,8 +132,8 @@ fn conversions_to_whole_units() {
     assert_eq!([f64::NAN, 1e30, -1e30].map(|x| fixed_towards_0(x, -20)), [i64::MAX, i64::MAX, -i64::MAX]);
 }
 
-/// The series of masses: what a value is low by, held to 128 bits; and where a search ends: within its error, or, if that
-/// is too small for it, at one of two neighbouring places.
+/// The series of masses: what a value is low by, held to 128 bits; and where a search ends: within its error, or, if
+/// that is too small for it, at one of two neighbouring places.
 #[test]
 fn series_of_masses_and_their_search() {
     let (mut rng, mut most, mut all, mut bisected) = (Rng::new(94, 0), 0, [0; 2], 0);
@@ -254,8 +260,9 @@ fn a_time_in_units_is_rounded_once() {
 }
 
 /// What the oracle collects by a time is within what is proven: on the line 2⁻⁶ ulp of the fraction, by a search 0.425
-/// ulp, or 2⁻⁴⁶·², a unit of time either way, or four beyond the near ramp, as a product on the plateau loses three. And
-/// a cdf is within 0.875 ulp at a time within 1/4 ulp and 2⁻⁵⁴ of the interval.
+/// ulp, or 2⁻⁴⁶·², a unit of time either way, or four beyond the near ramp, as a product on the plateau loses three.
+///
+/// A cdf is within 0.875 ulp at a time within 1/4 ulp and 2⁻⁵⁴ of the interval.
 #[test]
 fn searches_and_the_cdf_are_within_what_is_proven() {
     let (mut rng, mut worst) = (Rng::new(99, 0), [0.0f64; 3]);
