@@ -47,8 +47,8 @@ impl Exposure {
         let ramps =
             [Ramp::new(first, &shapes[0], per_area, near, units), Ramp::new(last, &shapes[1], per_area, far, units)];
         // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. It is
-        // off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes 2⁸ units or
-        // more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
+        // off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes 2⁸ units
+        // or more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
         let line_base = units.of(open) - fixed_towards_0(areas[0], units.exponent);
         let line_slope = units.of(close) + fixed_towards_0(areas[1], units.exponent) - line_base;
         let (time_of_word, fine) = (power_of_two(units.exponent + 32), units.fine);
@@ -86,9 +86,9 @@ impl Exposure {
         self.units().of(time)
     }
 
-    /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. What is collected
-    /// then differs from `a` by at most `a / 2²⁶` and 2⁻⁴⁶. Of 0, a negative number or NaN it is the end itself, though no
-    /// light may fall there.
+    /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. What is
+    /// collected then differs from `a` by at most `a / 2²⁶` and 2⁻⁴⁶. Of 0, a negative number or NaN it is the end
+    /// itself, though no light may fall there.
     #[inline(always)]
     pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {
         let (side, a) = (fraction.side, fraction.get());

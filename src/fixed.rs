@@ -138,8 +138,8 @@ pub(crate) const fn single(x: i64) -> f32 {
     (x >> 32) as i32 as f32 * WORD + x as u32 as f32
 }
 
-/// The upper word of `x`, which rounds to the same `f32` as both words: a small processor converts 32 bits, not 64. None
-/// if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it
+/// The upper word of `x`, which rounds to the same `f32` as both words: a small processor converts 32 bits, not 64.
+/// None if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it
 /// is 0: the *sticky bit*.
 // proofs/words.py
 #[inline(always)]

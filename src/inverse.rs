@@ -30,8 +30,8 @@ use crate::ramp::bezier::CubicBezier;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// By side: how many `f32` are on the plateau's line; and the bits of the last one, below 1, that is at or before the
-    /// far ramp's join.
+    /// By side: how many `f32` are on the plateau's line; and the bits of the last one, below 1, that is at or before
+    /// the far ramp's join.
     line_bits: [[u32; 2]; 2],
     /// By side: the bits of the stored tops of the ramp at the start and of the one at the end. With them `(bits(top) -
     /// bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).

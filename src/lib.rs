@@ -32,8 +32,8 @@
 //!
 //! # Units
 //!
-//! For triggers and pulses, a curve's times are in seconds. If you need neither, any unit of time will do. Answers are in
-//! the unit that you gave to the constructor.
+//! For triggers and pulses, a curve's times are in seconds. If you need neither, any unit of time will do. Answers are
+//! in the unit that you gave to the constructor.
 //!
 //! # Which call
 //!
@@ -56,9 +56,9 @@
 //!
 //! The program `shutter`, in the crate's repository, fits a curve to a photodiode's record of a shutter. It writes a
 //! module for firmware with the ticks of a frame and their delay from the camera's sync. With `--curve` the module also
-//! holds the curve as a `static`, and needs this crate. You supply four facts that the record does not show: the set-up,
-//! the sync's edge, the timer's rate, and what the lamp needs from one flash to the next. The set-up is `in_path` if
-//! light passes through the measured shutter, and `emulated` if the camera's own shutter stays open.
+//! holds the curve as a `static`, and needs this crate. You supply four facts that the record does not show: the
+//! set-up, the sync's edge, the timer's rate, and what the lamp needs from one flash to the next. The set-up is
+//! `in_path` if light passes through the measured shutter, and `emulated` if the camera's own shutter stays open.
 //!
 //! ```text
 //! shutter fit trace.csv --sync 0 --out leaf.toml
@@ -71,9 +71,10 @@
 //!
 //! # Accuracy
 //!
-//! On every curve, [`inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded to `f32`. (For
-//! `u` below 2⁻²³ the fraction is within 2⁻⁴⁶.) On typical curves, the result is within 0.69 ulp of the exact time of
-//! `u`. Times and ticks never decrease as `u` grows. The page [`accuracy`] lists all promises and the evidence for them.
+//! On every curve, [`inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded to `f32`.
+//! (For `u` below 2⁻²³ the fraction is within 2⁻⁴⁶.) On typical curves, the result is within 0.69 ulp of the exact time
+//! of `u`. Times and ticks never decrease as `u` grows. The page [`accuracy`] lists all promises and the evidence for
+//! them.
 //!
 //! Every machine with IEEE arithmetic gives the same bits.
 //!

@@ -2,8 +2,8 @@
 //!
 //! A search guesses where one term alone reaches the target ([`guess`]), and takes a step of Halley's, whose slopes are
 //! in single precision. Then it measures in fixed point what is missing, and ends if that is within the error. Else it
-//! takes a step again. From [`FREE_STEPS`] on it halves a bracket instead. So it always ends, within its error or at two
-//! neighbouring places.
+//! takes a step again. From [`FREE_STEPS`] on it halves a bracket instead. So it always ends, within its error or at
+//! two neighbouring places.
 
 use crate::fixed::{WORD, power_of_two, single, times, times_up};
 

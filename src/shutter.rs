@@ -90,8 +90,8 @@ impl ShutterCurve {
     ///
     /// The `times` are when the shutter starts to open, is fully open, starts to close, and is closed. The `inner`
     /// control points are `[t1, y1, t2, y2]` of the opening ramp and `[t5, y5, t6, y6]` of the closing one. Each `t` is
-    /// a fraction of the *whole* interval, 0 at the first of the `times` and 1 at the last. Each `y` is an openness. A `t`
-    /// that rounding put outside its ramp, by up to 2⁻²¹ of the greatest |time|, counts as the ramp's end.
+    /// a fraction of the *whole* interval, 0 at the first of the `times` and 1 at the last. Each `y` is an openness. A
+    /// `t` that rounding put outside its ramp, by up to 2⁻²¹ of the greatest |time|, counts as the ramp's end.
     ///
     /// ```
     /// use shutter_curve::{CurveError, Part, ShutterCurve};

@@ -1,4 +1,5 @@
-// The answer: a trace's results or a curve's facts as the program tells them, and beside each what is doubtful about it.
+// The answer: a trace's results or a curve's facts as the program tells them, and beside each what is doubtful about
+// it.
 
 import { html, nothing, render } from 'lit-html';
 import { $, watch, write } from './dom.js';
@@ -50,7 +51,8 @@ export function doubtsOf(model) {
   const fit = fitOf(model.now), told = toldNow(model)?.doubts ?? [];
   // A fit tells them of itself.
   const ofScene = told.filter(({ code }) => !(fit && code === 'trace'));
-  const all = [...(fit?.warnings ?? []), ...ofScene.map(({ code, text }) => ({ about: ABOUT[code] ?? 'exposure', text }))];
+  const all = [...(fit?.warnings ?? []),
+    ...ofScene.map(({ code, text }) => ({ about: ABOUT[code] ?? 'exposure', text }))];
   return all.map(({ about, text }) => ({ about, text: inWords(text) }));
 }
 
@@ -95,7 +97,8 @@ export function drawFacts(model, samples) {
     const words = inWords(text).replace(/(?<=\bT\w+) | (?=±)|(?<=±) /g, '\u00a0');
     // A channel that may be the sync's is asked for.
     const isAsked = title === 'delay' && fit && trace.file && trace.measured.names.length > 2 && !trace.asked.sync;
-    return html`<div data-fact=${title}><dt>${TITLES[title] ?? title}</dt><dd>${title === 'exposure' ? html`<b>${words}</b>` : words}
+    const shown = title === 'exposure' ? html`<b>${words}</b>` : words;
+    return html`<div data-fact=${title}><dt>${TITLES[title] ?? title}</dt><dd>${shown}
       ${isAsked ? leads('sync') : nothing}${about.map((it) => doubt(it.text))}</dd></div>`;
   };
   const changed = trace && !fit && samples ? byHand(trace, samples) : nothing;

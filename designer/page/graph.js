@@ -66,8 +66,8 @@ export function shareAt(list, t) {
 }
 
 /**
- * A trace's samples in times of the view, and what its curve leaves of them, where `fitted` is the view of the curve that
- * was fitted, if that is another one.
+ * A trace's samples in times of the view, and what its curve leaves of them, where `fitted` is the view of the curve
+ * that was fitted, if that is another one.
  */
 function left({ samples }, origin, view, fitted) {
   if (!fitted) return samples.map(([t, o, r]) => [t - origin, o, r]);
@@ -96,7 +96,8 @@ export class Graph {
     this.paths = {
       even: layer('share even', 'below'), odd: layer('share odd', 'below'), lamp: layer('lamp'), stems: layer('stems'),
       edge: layer('edge'), curve: layer('curve'), trace: layer('trace', 'upper'), errors: layer('errors'),
-      dots: layer('dots'),      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'),
+      dots: layer('dots'), residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'),
+      cdfDots: layer('dots'),
       cross: layer('cross'), arms: layer('arms'),
     };
     this.handles = new Handles(this);

@@ -24,7 +24,8 @@ let graph;
 const inSight = new Set();
 // What draws the model, each a part of the screen.
 const PARTS = [
-  drawState, askProgram, (model) => graph.show(model), drawPhoto, drawPresets, (model) => drawFacts(model, graph.samples), drawForm,
+  drawState, askProgram, (model) => graph.show(model), drawPhoto, drawPresets,
+  (model) => drawFacts(model, graph.samples), drawForm,
   drawTrace, drawSpeeds, drawExport, drawBar, (model) => inSight.has('ticks') && drawTicks(model),
 ];
 

@@ -93,7 +93,8 @@ export function inUnit(scene, unit) {
 
 /** Are two scenes of the same shutter, at the same times? */
 export function isSameShape(a, b) {
-  const shape = ({ shutter, own }) => JSON.stringify([...TIMES.map((key) => shutter[key]), shutter.shutteropening, own]);
+  const shape = ({ shutter, own }) =>
+    JSON.stringify([...TIMES.map((key) => shutter[key]), shutter.shutteropening, own]);
   return shape(inUnit(a, 'ns')) === shape(inUnit(b, 'ns'));
 }
 
@@ -122,8 +123,8 @@ export function timesOf(scene) {
 export const innerOf = (scene) => scene.shutter.shutteropening ?? placed(STRAIGHT, timesOf(scene));
 
 /**
- * The scene with a shutter that is drawn: what was measured, and what was doubtful about that, is another's. The edge of
- * the sync stands still, so the delay ends at the new opening.
+ * The scene with a shutter that is drawn: what was measured, and what was doubtful about that, is another's. The edge
+ * of the sync stands still, so the delay ends at the new opening.
  */
 export function withShape(scene, times, inner) {
   const origin = originOf(scene), { shutter, flashes } = scene;

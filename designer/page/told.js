@@ -40,7 +40,8 @@ const keys = Object.keys(KINDS).filter((key) => key.includes('_') || key === 'du
 const NAMES = new RegExp(`\`?\\b(${keys.join('|')})\\b\`?`, 'g');
 
 /** The program's words, with the page's names. */
-export const inWords = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g, '').replace(NAMES, (_, key) => PLACES[key] ?? `“${label(key)}”`)
+export const inWords = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g, '')
+  .replace(NAMES, (_, key) => PLACES[key] ?? `“${label(key)}”`)
   .replace(/(?<=\w)'(?=\w)/g, '’').replace(/\btrigger(s?)\b/g, (_, many) => (many ? 'flashes' : 'flash'));
 
 /** What is wrong, once it is known in words. */

@@ -154,7 +154,8 @@ for (const seed of [7, 2026]) {
         return { view, wrong, now: designer.toProgram(now.scene).flashes };
       });
       // What hardware gets is what is on the screen.
-      if (view?.plan.Ok && !wrong && now.set_up && now.timer_hz && now.min_gap !== null && await page.$('#forms button')) {
+      if (view?.plan.Ok && !wrong && now.set_up && now.timer_hz && now.min_gap !== null
+        && await page.$('#forms button')) {
         await written();
         if (await page.isDisabled('#copy')) continue;
         const { triggers } = JSON.parse(await copied('json'));

@@ -16,8 +16,8 @@ const MOST_ROUNDS: usize = 40;
 /// The first step outwards of [`Path::parameter`], as a share of `p`: small, as each further one is twice as long.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// A ramp, seen from a side of the curve, for which octaves are built: by powers of `p`, from 0 at the end that faces the
-/// side to 1. Coefficients from the constant up.
+/// A ramp, seen from a side of the curve, for which octaves are built: by powers of `p`, from 0 at the end that faces
+/// the side to 1. Coefficients from the constant up.
 pub(crate) struct Path<'a> {
     pub(crate) exposure: &'a Exposure,
     pub(crate) side: Side,

@@ -12,7 +12,8 @@ use crate::fraction::Side;
 use crate::ramp::shape::Shape;
 use crate::search::Series;
 
-/// The coefficients of a mass count `2^MASS_SHIFT`: they are up to 2⁹ times as great as the exposure (proofs/domain.py).
+/// The coefficients of a mass count `2^MASS_SHIFT`: they are up to 2⁹ times as great as the exposure
+/// (proofs/domain.py).
 const MASS_SHIFT: u32 = 9;
 /// Those of a way count `2^WAY_SHIFT` fine units: they are up to six times as great as the interval.
 const WAY_SHIFT: u32 = 3;
@@ -68,8 +69,8 @@ impl Ramp {
         powers(if side.is_end() { [d2, d1, d0] } else { [d0, d1, d2] })
     }
 
-    /// The time, in units, by which a part of the exposure has been collected since the end that faces a side, within an
-    /// error of the part; and the evaluations of the search. It starts from the end whose mass is nearer.
+    /// The time, in units, by which a part of the exposure has been collected since the end that faces a side, within
+    /// an error of the part; and the evaluations of the search. It starts from the end whose mass is nearer.
     #[inline(always)]
     pub(crate) const fn time_of_part(&self, side: Side, part: i64, error: i64, units: Units) -> (i64, u32) {
         let rest = self.share - part;
@@ -85,8 +86,8 @@ impl Ramp {
         (if from.is_end() { end - way } else { end + way }, evaluations)
     }
 
-    /// The place of a time on the ramp, in units, within an error of its way, in fine units; counted from the end that is
-    /// nearer in time, which comes first.
+    /// The place of a time on the ramp, in units, within an error of its way, in fine units; counted from the end that
+    /// is nearer in time, which comes first.
     #[inline(never)]
     pub(crate) const fn place_of_time(&self, time_units: i64, error: i64, units: Units) -> (Side, u64) {
         let [way, rest] = [time_units - units.of(self.ends[0]), units.of(self.ends[1]) - time_units];

@@ -200,8 +200,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// A frame of `n` pulses, as an iterator. With a duty of 1 pulses touch, which needs a
     /// [`min_gap`](Self::min_gap) of 0.
     ///
-    /// The exposure alone often shows that `n` pulses are long and far enough apart, and the call is short. Otherwise it
-    /// computes the whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
+    /// The exposure alone often shows that `n` pulses are long and far enough apart, and the call is short. Otherwise
+    /// it computes the whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
     ///
     /// ```
     /// use shutter_curve::{Hz, Pulse, ShutterCurve, expect};

@@ -11,7 +11,8 @@ const WORDS: [&str; 6] = ["never", "every", "always", "at most", "largest", "non
 const HELD: &[(&str, &[&str])] = &[
     // How exact it is.
     ("tests/curve/promises.rs::the_pages_have_these_numbers", &[
-        "0.5 ulp", "at most half an ulp", "0.69 ulp", "0.85 tick", "0.52 tick", "within 2⁻⁴⁶", "at most 2⁻⁴⁶", "hold for `u` from 2⁻²³", "2⁻⁵³ of the interval", "at most 79", "1 ulp | 1 ulp",
+        "0.5 ulp", "at most half an ulp", "0.69 ulp", "0.85 tick", "0.52 tick", "within 2⁻⁴⁶", "at most 2⁻⁴⁶",
+        "hold for `u` from 2⁻²³", "2⁻⁵³ of the interval", "at most 79", "1 ulp | 1 ulp",
         "`efficiency` | 1 ulp", "falls by at most 1 ulp", "never below 2⁻⁵⁷",
     ]),
     ("tests/curve/promises.rs::random_hard_curves", &[
@@ -25,7 +26,8 @@ const HELD: &[(&str, &[&str])] = &[
     ("tests/curve/promises.rs::named_typical_curves", &["1 divided by the", "efficiency, at most 1"]),
     ("tests/curve/ticks.rs::the_worst_tick_of_a_typical_curve", &["the error can be many ticks", "0.89 tick was seen"]),
     ("benches/host/speed_vs_error/every_f32.rs", &["checks order and errors at"]),
-    ("docs/internals/speed-vs-error.md", &["in the repository has the largest", "*Error* is the largest", "with 256 entries, reaches"]),
+    ("docs/internals/speed-vs-error.md",
+        &["in the repository has the largest", "*Error* is the largest", "with 256 entries, reaches"]),
     // What is accepted.
     ("tests/curve/refusals.rs::rule_2_the_first_inner_time_passes_the_second_by_15_16", &["15/16"]),
     ("tests/curve/refusals.rs::rule_2_openness_lies_between_0_and_1", &["has an openness in [0, 1]"]),
@@ -43,22 +45,27 @@ const HELD: &[(&str, &[&str])] = &[
     ("tests/curve/ticks.rs::the_greatest_tick_rate_is_named", &["at most 2³¹", "16 bits"]),
     ("tests/curve/ticks.rs::the_most_that_keep_the_gap", &["below `wanted` and 2²²", "up to 19, were seen"]),
     ("tests/curve/ticks.rs::the_max_triggers_of_anything", &["It is 0 only if `wanted` is 0"]),
-    ("tests/curve/ticks.rs::a_filled_schedule_is_each_trigger_alone", &["Openness is at most 1, so", "Each end errs", "3 ticks and"]),
+    ("tests/curve/ticks.rs::a_filled_schedule_is_each_trigger_alone",
+        &["Openness is at most 1, so", "Each end errs", "3 ticks and"]),
     ("tests/curve/ticks.rs::direct_frames_are_large", &["127 or more", "Each further octave", "If it is 0, a frame"]),
     ("tests/curve/ticks.rs::doses_are_equal", &["each pulse sends equal light"]),
-    ("cli/tests/program/plan.rs::the_pictures_of_the_docs_are_as_they_are_drawn", &["dimmed by up to 39 %", "none is dimmed"]),
+    ("cli/tests/program/plan.rs::the_pictures_of_the_docs_are_as_they_are_drawn",
+        &["dimmed by up to 39 %", "none is dimmed"]),
     // What it costs.
     ("tests/curve/ticks.rs::one_figure_for_the_worst_direct_tick", &["at most 181 cycles"]),
     ("tests/curve/ticks.rs::a_curve_has_so_many_bytes", &["368 + 96", "1136 bytes"]),
     ("tests/curve/ticks.rs::a_large_curve_is_a_constant_too", &["Above 16, a constant"]),
     ("benches/cortex-m/src/budget.rs", &["about one fraction in 400", "2.9 million"]),
     ("docs/internals/cost.md", &[
-        "about 4 kB of flash", "The code for ticks", "60 to 110", "500 to 2500", "34 cycles", "`inverse_cdf` of a `static` | 66",
+        "about 4 kB of flash", "The code for ticks", "60 to 110", "500 to 2500", "34 cycles",
+        "`inverse_cdf` of a `static` | 66",
         "careful Newton", "linear table", "square root, only", "mean cycles of a call",
     ]),
     ("benches/cortex-m/src/links.rs", &["Every function returns", "which is never reached"]),
     ("benches/cortex-m/src/answers.rs", &["machine with IEEE arithmetic", "excess precision"]),
-    ("src/octave/mod.rs", &["`OCTAVES` is at most 64", "an *octave* is", "Above 1/2 the same", "widest octaves", "With 0, every fraction"]),
+    ("src/octave/mod.rs",
+        &["`OCTAVES` is at most 64", "an *octave* is", "Above 1/2 the same",
+          "widest octaves", "With 0, every fraction"]),
 ];
 
 /// No claims: titles, definitions, and what a reader can look up.

@@ -17,7 +17,8 @@ const WRONG_TYPES: &[(&str, &str, &str)] = &[
     ("rate for a gap", "pub fn f() { _ = FLASH.min_gap(Hz(1_000_000)); }", "expected `u32`, found `Hz`"),
     ("a gap beside the count", "pub fn f() { _ = FLASH.max_triggers(16, 1_000); }", "takes 1 argument but 2"),
     ("a gap beside the rate", "pub fn f() { _ = SHUTTER.at(Hz(1_000_000), 1_000); }", "takes 1 argument but 2"),
-    ("a frame without a rate", "pub fn f() { _ = SHUTTER.trigger_ticks(16); }", "no method named `trigger_ticks` found"),
+    ("a frame without a rate", "pub fn f() { _ = SHUTTER.trigger_ticks(16); }",
+     "no method named `trigger_ticks` found"),
     ("a rate in another unit", "pub struct KHz(pub u32); pub fn f() { _ = SHUTTER.at(KHz(1_000)); }",
      "expected `Hz`, found `KHz`"),
     ("count and duty are swapped", "pub fn f() { _ = FLASH.pulse_ticks(0.5, 12); }",
@@ -47,7 +48,8 @@ const WRONG_VALUES: &[(&str, &str, &str)] = &[
      "for a timer of 16 bits"),
     ("no rate", "const NONE: TimedCurve = expect!(SHUTTER.at(Hz(0)));", "the timer's rate is 0"),
     ("flashes too close", "const TICKS: [u32; 16] = expect!(FLASH.min_gap(1_000).ticks());",
-     "the gap before trigger 1 is 792 ticks; the minimum is 1000; use fewer triggers (max_triggers), or a faster timer"),
+     "the gap before trigger 1 is 792 ticks; the minimum is 1000; \
+      use fewer triggers (max_triggers), or a faster timer"),
     ("pulses that touch", "const PULSES: [Pulse; 12] = expect!(FLASH.pulses(1.0));",
      "the gap before pulse 1 is 0 ticks; the minimum is 1; \
       use fewer pulses, or a smaller duty; with min_gap(0) pulses may touch"),

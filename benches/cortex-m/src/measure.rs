@@ -173,3 +173,12 @@ fn direct(series: &Series) -> Vec<bool> {
     });
     direct.collect()
 }
+
+/// Of 100 answers on typical curves, those that take a search.
+pub fn searched() -> f64 {
+    let of = |place| {
+        let curve = curve::<DEFAULT>(place);
+        (0..512).filter(|i| !curve.is_direct(uniform(*i))).count()
+    };
+    (0..TYPICAL).map(of).sum::<usize>() as f64 / (5.12 * TYPICAL as f64)
+}

@@ -319,7 +319,8 @@ fn far_from_nominal(Speed { name, fit, .. }: &Speed) -> Option<String> {
     (ev.abs() >= 1.0).then(|| {
         let (measured, unit) = (fit.unit().show(fit.exposure.value), Unit::fit(nominal));
         format!(
-            "warning: {name}: {measured} is {} EV off its --nominal of {}: are the speeds in the order of the traces?\n",
+            "warning: {name}: {measured} is {} EV off its --nominal of {}: \
+             are the speeds in the order of the traces?\n",
             stops(ev),
             unit.show(nominal)
         )

@@ -498,7 +498,8 @@ fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
     folder.write("leaf&co.csv", leaf(1.0));
     let line = "fit leaf&co.csv --out a.toml --picture a.svg --triggers 5 --zero open";
     let run = folder.run(line).prints(&["* straight ramps", "exposure     5.00"]);
-    let told = "wrote a.toml\nwrote a.svg\nnext: shutter plan a.toml --set-up emulated|in_path --timer-hz HERTZ --min-gap TIME --emit rust";
+    let told = "wrote a.toml\nwrote a.svg\nnext: shutter plan a.toml --set-up emulated|in_path \
+                --timer-hz HERTZ --min-gap TIME --emit rust";
     assert!(run.err.starts_with(told), "{}", run.err);
     assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
     let scene = folder.text("a.toml");

@@ -1,4 +1,5 @@
-//! Prints what the page takes from here: scenes of `cli/scenes` and what is told of them, the units, where the crate lives.
+//! Prints what the page takes from here: scenes of `cli/scenes` and what is told of them, the units, where the crate
+//! lives.
 
 use std::error::Error;
 use std::fs;

@@ -105,9 +105,9 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// Finds the columns of numbers, and tells for each column whether something stands in most rows. Words count in the
-    /// last third alone, which is no header. Empty fields say nothing of a column: it may have been recorded for a part
-    /// of the times.
+    /// Finds the columns of numbers, and tells for each column whether something stands in most rows. Words count in
+    /// the last third alone, which is no header. Empty fields say nothing of a column: it may have been recorded for a
+    /// part of the times.
     fn judge(&mut self, total: usize) -> Vec<bool> {
         #[derive(Clone, Default)]
         struct Count {

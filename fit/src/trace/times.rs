@@ -131,7 +131,8 @@ fn stamped(rows: &[Sample]) -> Option<(usize, f64)> {
     is_one.then_some((length, scatter / 2f64.sqrt()))
 }
 
-/// The samples in order, those of the same time averaged, and what is known of the times, which may be those of changes.
+/// The samples in order, those of the same time averaged, and what is known of the times, which may be those of
+/// changes.
 pub fn ordered(mut rows: Vec<Sample>, are_changes: bool, warnings: &mut Vec<Warning>) -> (Trace, Timing) {
     let mut timing = Timing { segments: apart(&mut rows), ..Timing::default() };
     if let Some(pair) = rows.windows(2).find(|pair| pair[1].time < pair[0].time) {

@@ -250,7 +250,8 @@ fn a_setting_gives_the_times() {
         Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz|\
         Sample rate: 50 kHz (actual 100 kHz)|Max. sample rate: 1 GHz|Sample rate: 100.000 Hz|Sample rate: 1.000.000 Hz|\
         Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz|Sample rate: 10 kHz/ch|\
-        Sample rate: 1 kHz\nDecimation,8|Sample Interval,1e-5,2e-5|Sample Interval,1e-5\nXUnits,Hz|Sample rate: 1 kHz\nSampling period,2 ms";
+        Sample rate: 1 kHz\nDecimation,8|Sample Interval,1e-5,2e-5|Sample Interval,1e-5\nXUnits,Hz|\
+        Sample rate: 1 kHz\nSampling period,2 ms";
     unsure.split('|').for_each(|above| assert!(times(above).is_err(), "{above}"));
     let first = |above: &str| times(&format!("Sample rate: 100 kHz\n{above}")).expect("a rate").trace.times[0];
     let six_before = "HOffset,-6.0E-03\nHUnit,s|X,Start\nSequence,-6.0ms";

@@ -56,7 +56,8 @@ pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::{});
     });
     let common = common(module);
     format!(
-        "{head}\n{common}\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {n};\n{delay}\n{array}{from_edge}{shutter}"
+        "{head}\n{common}\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {n};\n\
+         {delay}\n{array}{from_edge}{shutter}"
     )
 }
 
