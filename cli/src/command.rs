@@ -34,7 +34,7 @@ struct Args {
 
 #[derive(Subcommand)]
 enum Command {
-    Plan(plan::Args),
+    Plan(Box<plan::Args>),
     Design(design::Args),
     Fit(Box<fit::Args>),
 }
@@ -53,7 +53,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, out: &mut dyn Write, err: &
             return 0;
         }
     };
-    let ended = match args.command.unwrap_or_else(|| Command::Plan(plan::Args::default())) {
+    let ended = match args.command.unwrap_or_else(|| Command::Plan(Box::default())) {
         Command::Plan(args) => plan::run(&args, out, err),
         Command::Design(args) => design::run(&args, out),
         Command::Fit(args) => fit::run(&args, out, err),

@@ -21,7 +21,8 @@ fn the_page_has_every_key() {
     for (table, mut known) in [("shutter", shutter), ("flashes", flashes)] {
         let mut told: Vec<&str> = rows(table).iter().map(|row| row.0).collect();
         known.retain(|key| key != "measured");
-        (told.sort(), known.sort());
+        told.sort();
+        known.sort();
         assert_eq!(told, known);
         let fault = Scene::parse(&format!("[shutter]\n[flashes]\n[{table}.none]\n")).unwrap_err().reason();
         assert!(known.iter().all(|key| fault.contains(&format!("`{key}`"))), "{fault}");

@@ -67,7 +67,7 @@ pub fn modules(called: &str, modules: &[Module], curve: bool) -> String {
     let (int, n) = (int(one), modules.len());
     let is_moved = modules.iter().find(|it| it.origin != one.origin || it.origin.ends_with("delay"));
     let origin = is_moved.map_or(one.origin, |_| "counted from the end of the delay");
-    let mut fields = vec![("The scene's name.".into(), format!("name: &'static str"), None)];
+    let mut fields = vec![("The scene's name.".into(), "name: &'static str".to_string(), None)];
     if one.edge.is_some() {
         fields.push(("See `DELAY_TICKS`.".into(), format!("delay_ticks: {int}"), Some("DELAY_TICKS")));
         fields.push(("See `HOLD_OFF_TICKS`.".into(), format!("hold_off_ticks: {int}"), Some("HOLD_OFF_TICKS")));
