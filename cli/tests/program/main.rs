@@ -2,6 +2,8 @@
 
 #[path = "../../../fit/tests/traces/generator.rs"]
 mod generator;
+#[path = "../../../fit/tests/traces/judge.rs"]
+mod judge;
 
 mod emit;
 mod fit;
