@@ -36,7 +36,7 @@ fn curves() -> Vec<Curve> {
         [-1.0, -1e-6, 1e-5, 3.0],
         [4e3, 4e3, 4001.0, 4001.0],
         // 2³¹ ticks and a trace of one at 2¹¹ Hz; and less than a tick at most rates.
-        [-power_of_two(-24), 1.0, 1.0, power_of_two(20)],
+        [-power_of_two(-24), -power_of_two(-24), 1.0, power_of_two(20)],
         [0.0, 0.0, 1.7e-12, 1.7e-12],
     ] {
         curves.push(Curve::shutter(straight([a, b], [0.0, 1.0]), straight([c, d], [1.0, 0.0])));
@@ -353,5 +353,17 @@ fn a_tick_is_the_nearest() {
             }
             assert_eq!(i128::from(scale.tick(end)), (halves(length, rate) + 1) >> 1);
         }
+    }
+}
+
+/// A fraction is the lesser part's, and exactly half counts from the start.
+#[test]
+fn a_fraction_of_parts_is_that_of_the_lesser() {
+    for n in 1..1000u16 {
+        let [part, rest, whole] = [n, 1000 - n, 1000].map(f32::from);
+        let fraction = Fraction::of_parts(part, rest, whole);
+        let is_end = n > 500;
+        let lesser = if is_end { rest } else { part };
+        assert_eq!(fraction, Fraction { side: Side::end_if(is_end), bits: (lesser / whole).to_bits() });
     }
 }
