@@ -25,7 +25,7 @@ fi
 
 command -v npm >/dev/null || { echo "designer: missing Node.js, 20 or later" >&2; exit 1; }
 if [ ! -x node_modules/.bin/esbuild ] || [ package-lock.json -nt node_modules ]; then
-    echo "designer: fetching what joins its scripts and drives a browser in its tests, 30 MB, some seconds ..." >&2
+    echo "designer: fetching what joins its scripts and drives a browser, 30 MB, some seconds ..." >&2
     npm ci --no-audit --no-fund --loglevel error
     touch node_modules
 fi

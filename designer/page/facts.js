@@ -1,5 +1,4 @@
-// The answer: a trace's results or a curve's facts as the program tells them, and beside each what is doubtful about
-// it.
+// The answer: a trace's results or a curve's facts as the program tells them, and beside each what is doubtful.
 
 import { html, nothing, render } from 'lit-html';
 import { $, watch, write } from './dom.js';
@@ -51,9 +50,8 @@ export function doubtsOf(model) {
   const fit = fitOf(model.now), told = toldNow(model)?.doubts ?? [];
   // A fit tells them of itself.
   const ofScene = told.filter(({ code }) => !(fit && code === 'trace'));
-  const all = [...(fit?.warnings ?? []),
-    ...ofScene.map(({ code, text }) => ({ about: ABOUT[code] ?? 'exposure', text }))];
-  return all.map(({ about, text }) => ({ about, text: inWords(text) }));
+  const about = ({ code, text }) => ({ about: ABOUT[code] ?? 'exposure', text });
+  return [...(fit?.warnings ?? []), ...ofScene.map(about)].map(({ about, text }) => ({ about, text: inWords(text) }));
 }
 
 // The facts under their titles, those of a fit in place of its curve's.

@@ -11,9 +11,8 @@ export const loadEngine = () => init({ module_or_path: fileOf('engine.wasm') });
 // What the engine answers of a scene, whose values are told key by key.
 function ask(scene, answer, failed) {
   try {
-    const question = new Question();
-    const { own, ...tables } = { ...toProgram({ ...scene, own: null }), own: scene.own ?? {} };
-    for (const [table, values] of Object.entries({ ...tables, own })) {
+    const question = new Question(), tables = { ...toProgram({ ...scene, own: null }), own: scene.own ?? {} };
+    for (const [table, values] of Object.entries(tables)) {
       for (const [key, value] of Object.entries(values)) {
         if (typeof value === 'string') question.say(`${table}.${key}`, value);
         else if (value !== null && key !== 'measured') question.set(`${table}.${key}`, [value].flat().map(Number));
@@ -45,8 +44,8 @@ function copied(view, origin) {
   if (!times.length) return wrong ?? { Err: { key: '' } };
   // Counted from so far off, a shutter has no digits left.
   if (!(Math.abs(times[0]) < 1e5 * (times[3] - times[0]) || !origin)) {
-    return { Err: { key: 'flashes.delay',
-      reason: 'sync delay: it is too long to count this shutter’s times from its edge' } };
+    const reason = 'sync delay: it is too long to count this shutter’s times from its edge';
+    return { Err: { key: 'flashes.delay', reason } };
   }
   const { early, hz, from_edge: delay = null } = view;
   const ticks = [...view.ticks], pulses = tuples(view.pulses, 2), doses = [...view.doses];

@@ -137,8 +137,8 @@ export function extend(page) {
     }, value),
     until: (what, ...args) => page.waitForFunction(what, {}, ...args),
     /** Until the page says so. */
-    says: (words) => page.waitForFunction(
-      (words) => document.body.innerText.replaceAll('\u00a0', ' ').includes(words), {}, words),
+    says: (words) => page.waitForFunction((words) =>
+      document.body.innerText.replaceAll('\u00a0', ' ').includes(words), {}, words),
     press: async (keys) => {
       const all = keys.split('+');
       for (const key of all.slice(0, -1)) await page.keyboard.down(key);
