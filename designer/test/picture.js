@@ -11,10 +11,10 @@ test('the picture is made', async () => {
   await open('', { width: 1440, height: 1000 });
   await preset('measured');
   await fitted('leaf.csv');
-  for (const [id, value] of Object.entries({ set_up: 'emulated', timer_hz: '25 MHz', triggers: '12' })) {
+  for (const [id, value] of Object.entries({ set_up: 'emulated', timer_hz: '25 MHz', triggers: '12', min_gap: '0.1' })) {
     await page.fill(`#${id}`, value);
   }
-  await page.blur('#triggers');
+  await page.blur('#min_gap');
   await page.$eval('body', (it) => it.scrollIntoView());
   await page.mouse.move(2, 2);
   await written();
