@@ -506,7 +506,7 @@ fn csv_and_json_are_right(name: &str, planned: &Plan) {
         assert_eq!(rows.len(), plan.triggers.len(), "{name}");
         for (i, (row, trigger)) in rows.iter().zip(&plan.triggers).enumerate() {
             let pulse = row.on_ticks.zip(row.off_ticks);
-            let read = Trigger { u: Some(row.u), time: row.time_s, ticks: row.ticks, pulse };
+            let read = Trigger { u: Some(row.u), time: f64::from(row.time_s as f32), ticks: row.ticks, pulse };
             let edge = plan.sync.delay.map(|_| plan.sync.ticks + row.ticks);
             assert_eq!((row.index, read, row.from_edge_ticks), (i, *trigger, edge), "{name}");
         }
