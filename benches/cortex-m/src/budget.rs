@@ -51,7 +51,7 @@ pub fn run() -> Result {
         ("code of the inverse", code(InverseCdf), 3130.0),
         ("code of cdf", code(Cdf), 2560.0),
         ("code that builds a curve", code(Construct), 23_000.0),
-        ("stack of the inverse", m4f.stack((InverseCdf, DEFAULT)).map(f64::from), 240.0),
+        ("stack of the inverse", m4f.stack((InverseCdf, DEFAULT)).map(f64::from), 224.0),
         (".data and .bss", Some(m4f.statics as f64), 0.0),
         ("instructions of building a curve, soft", m4f.mean((Construct, DEFAULT), SOFT).map(|[count, _]| count), 2e6),
     ] {
