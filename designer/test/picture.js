@@ -11,7 +11,8 @@ test('the picture is made', async () => {
   await open('', { width: 1440, height: 1000 });
   await preset('measured');
   await fitted('leaf.csv');
-  for (const [id, value] of Object.entries({ set_up: 'emulated', timer_hz: '25 MHz', triggers: '12', min_gap: '0.1' })) {
+  const fields = { set_up: 'emulated', timer_hz: '25 MHz', triggers: '12', min_gap: '0.1' };
+  for (const [id, value] of Object.entries(fields)) {
     await page.fill(`#${id}`, value);
   }
   await page.blur('#min_gap');
