@@ -42,7 +42,7 @@ units = 2**61 * interval * LEAST_AREA
 # area has up to 60 roundings of an f64, of terms that are `terms` times as great at most.
 terms = max(sum(sizes(ramp.m)) / sum(ramp.m) for ramp in extremes(OPEN))
 line = 3 + units * 60 * terms * U64
-ulp = constant("FINE") / 2**23
+ulp = constant("LINE_FROM") / 2**23
 proven(f"the plateau's line has at least 2^{log2(units):.2f} units of area, and is off by at most {float(line):.2f} "
        f"units: 2^{log2(line / ulp / units):.2f} ulp of the least u on it",
        2**40 < units < 2**41 and ulp * units / 2**8 < line < ulp * units / 2**6)

@@ -44,12 +44,12 @@ valid("a trigger's fraction is within half an ulp; a pulse's end within one and 
 
 # --- No time is outside the interval: each tick counts from its start. A search stays on its ramp, or the plateau
 # (search.py). A polynomial collects its fraction but for ULP_ERROR. The line begins behind the near ramp, and above
-# FINE; its joins are off by JOIN_OFF and FRACTION_OFF, itself by 2^-6 ulp of FINE (domain.py).
+# LINE_FROM; its joins are off by JOIN_OFF and FRACTION_OFF, itself by 2^-6 ulp of LINE_FROM (domain.py).
 SHORTEST, LONGEST = int(61 + log2(constant("LEAST_INTERVAL"))), 62
 UNITS, RAMP = 2**SHORTEST * LEAST_AREA, 2**60 * constant("LEAST_SECTION")
 by_polynomial = constant("LEAST_TOP") / 2 * (1 - constant("ULP_ERROR") / 2**23) * UNITS - 1
-line_off = (constant("FINE") / 2**23 / 2**6 + constant("JOIN_OFF")) * 2**62
-by_line = constant("FINE") * (1 - Fraction(1, 2**29)) * UNITS
+line_off = (constant("LINE_FROM") / 2**23 / 2**6 + constant("JOIN_OFF")) * 2**62
+by_line = constant("LINE_FROM") * (1 - Fraction(1, 2**29)) * UNITS
 is_inside = lambda ramp: line_off < ramp * (1 - constant("FRACTION_OFF"))
 proven(f"no time is outside the interval: a polynomial's is 2^{log2(by_polynomial):.1f} units inside, the line's "
        f"2^{log2(by_line):.1f}, or it begins where a near ramp of 2^{log2(RAMP):g} ends, to 2^{log2(line_off):.1f}",

@@ -12,13 +12,13 @@ p, q = Ints("p q")
 products = And(p >= 0, p <= (2**32 - 1) ** 2, q >= 0, q <= (2**31 - 1) * (2**32 - 1))
 way = lambda bits: Implies(products, And(q + p / 2**32 == (q * 2**32 + p) / 2**32, q + p / 2**32 < 2**bits))
 valid("on_line: the way is floor(slope u / 2^32), and stays within 63 bits", way(63), way(62))
-FINE = 127 + int(log2(constant("FINE")))
+LINE_FROM = 127 + int(log2(constant("LINE_FROM")))
 bits = BitVec("bits", 32)
 shift = 126 - LShR(bits, 23)
 whole = (bits << 8) | (1 << 31)
 line = lambda first: Implies(And(UGE(bits, first << 23), ULT(bits, 127 << 23)),
                              And(ULE(shift, 31), LShR(whole, shift) << shift == whole))
-valid("in_line_units: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
+valid("in_line_units: a fraction from LINE_FROM to 1 is a whole number of 2^-32", line(LINE_FROM), line(LINE_FROM - 1))
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even
 # numbers. So an odd number may stand for all that lies between its even neighbours.

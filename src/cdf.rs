@@ -1,8 +1,7 @@
 //! From a time: the openness, the pdf, and the cdf.
 //!
-//! A cdf is the part of the exposure up to the time's *place* ([`ramp`](crate::ramp)), which is counted from a ramp's
-//! end. All parts make up the whole. From one time to the next it falls by an ulp at most, of at least that of 2⁻²⁴, by
-//! what measuring loses (proofs/search.py).
+//! A cdf is the part of the exposure up to the time's *place* on its ramp ([`ramp`](crate::ramp)). As a place is off by
+//! up to a quarter of the way to the next time's, and 32 fine units, it may fall by an ulp (proofs/search.py).
 
 use crate::exposure::Exposure;
 use crate::fixed::{ONE, nearest, power_of_two, times};
@@ -34,7 +33,7 @@ fn section(exposure: &Exposure, t: f32) -> Section<'_> {
     let side = Side::end_if(t > open || start == open);
     let (ramp, units) = (exposure.ramp(side), exposure.units());
     let time = units.of(t);
-    // A quarter of the distance to the next time, or less.
+    // In fine units: a quarter ulp of `t` or less, and 32. (A unit is one or more of them.)
     let error = (time.abs() >> 26) + 32;
     let (from, place) = ramp.place_of_time(time, error, units);
     Section::Ramp(side, ramp, from, place)
@@ -72,7 +71,7 @@ pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
         Section::Plateau => {
             let way = exposure.in_units(t) - exposure.in_units(exposure.join_time(Start));
             let (significand, up) = per_area(exposure);
-            // way / A · 2⁶²
+            // way / A · 2⁶². The last doubling is after the product, or the way would not fit.
             let part = times(way << ((up + exposure.units().exponent + 61) & 63), significand) << 1;
             exposure.ramp(Start).share + if part < exposure.plateau() { part } else { exposure.plateau() }
         }
@@ -85,7 +84,7 @@ pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
     nearest(fraction) * power_of_two(-62)
 }
 
-/// `(s, e)`: one over the area is `s / 2⁶⁴ · 2^e`.
+/// `(significand, up)`: one over the area is `significand / 2⁶⁴ · 2^up`.
 #[inline]
 fn per_area(exposure: &Exposure) -> (u64, i32) {
     let bits = exposure.per_area.to_bits();

@@ -94,14 +94,14 @@ impl Exposure {
         let (side, a) = (fraction.side, fraction.get());
         // To the nearest multiple of 2⁻⁴⁶, as every `f32` from 2⁻²³ on is one.
         let a = if a > 0.0 { ((fixed_down(a, -47) + 1) >> 1) << 16 } else { 0 };
-        // These keep it in order with the next one (proofs/search.py).
+        // Small enough that neighbouring fractions keep their order (proofs/search.py).
         let error = (a >> 27) + LEAST_ERROR;
         let near = self.ramp(side).share;
         let (ramp, part) = if a < near {
             (side, a)
         } else if a - near < self.plateau() {
             let [base, until] = [self.in_units(self.join_time(side)), self.in_units(self.join_time(side.other()))];
-            // In units the area may have 62 bits, and so may the part: twice both give the time.
+            // part / 2⁶² · area, as twice both over 2⁶⁴.
             let way = times((a - near) << 1, (self.line_slope as u64) << 1);
             let length = (until - base).abs();
             let way = if way < length { way } else { length };

@@ -15,14 +15,14 @@ pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 
 /// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`inverse`](crate::inverse)).
-pub(crate) const FINE: f32 = 1.0 / 512.0;
+pub(crate) const LINE_FROM: f32 = 1.0 / 512.0;
 
 /// The bits of 2⁻²², the least top of an octave. A frame's fractions are at least 2⁻²³ from either end of the curve.
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 22) as f32).to_bits();
-/// The bits of tops are multiples of this, an eighth of a power of two, so that each top fits a `u8`.
+/// The bits of tops are multiples of this, an eighth of a power of two.
 pub(crate) const EIGHTH: u32 = 1 << 20;
 
-/// `a x / 2⁶⁴`, low by less than 3: each of three products is rounded down, the fourth left out. For an `a` of at least
+/// `a x / 2⁶⁴`, low by less than 3: two products are rounded down, a fourth is left out. For an `a` of at least
 /// 0 it never falls as `a` or `x` grows.
 #[inline(always)]
 pub(crate) const fn times(a: i64, x: u64) -> i64 {

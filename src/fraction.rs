@@ -37,12 +37,6 @@ impl Side {
             End => Start,
         }
     }
-
-    /// This one, or the other one.
-    #[inline(always)]
-    pub(crate) const fn other_if(self, is_other: bool) -> Self {
-        Self::end_if(self.is_end() != is_other)
-    }
 }
 
 /// A fraction of the exposure, counted from a side. As bits, which order fractions as their numbers do, and are looked

@@ -6,22 +6,23 @@
 //! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else a search begins: `a` becomes an integer ([`fixed`](crate::fixed)).
-//! 5. The section where `a` is collected ([`exposure`](crate::exposure)): the plateau gives the time at once. Go to 10.
+//! 5. The part of the curve where `a` is collected ([`exposure`](crate::exposure)): the plateau, below 1/512, gives the
+//!    time at once. Go to 10.
 //! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
-//! 7. The search starts from the end of the ramp whose mass is nearer, its *anchor*.
+//! 7. The search starts from the end of the ramp whose mass is nearer.
 //! 8. The first guess: the least distance at which one term of the mass is enough ([`search`](crate::search)).
 //! 9. Halley's steps, until what they leave, measured in integers, is within the error.
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` has no earlier time: a polynomial errs by less than half of the distance between neighbouring `u`, a
-//! search by less than a quarter, and on the line `A u` is rounded down.
+//! A greater `u` has no earlier time: polynomials and searches err by less than half of the distance between
+//! neighbouring `u` (searches below 2⁻²³: of a step of their grid), and on the line `A u` is rounded down.
 //!
 //! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
 //! 1, too: there the line begins 1/512 from either end.
 
 use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
-use crate::fixed::{FINE, floor_bits, upper_word};
+use crate::fixed::{LINE_FROM, floor_bits, times, upper_word};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
 use crate::octave::{self, Octave, build};
@@ -30,11 +31,11 @@ use crate::ramp::bezier::CubicBezier;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// By side: how many `f32` are on the plateau's line; and the bits of the last one, below 1, that is at or before
-    /// the far ramp's join.
+    /// By side, `[count, last]`: the bits of the last `f32`, below 1, at or before the far ramp's join. From there
+    /// down, so many are on the plateau's line.
     line_bits: [[u32; 2]; 2],
-    /// By side: the bits of the stored tops of the ramp at the start and of the one at the end. With them `(bits(top) -
-    /// bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
+    /// By side: the bits of the tops at index 0, of the ramp at the start and of the one at the end. With them
+    /// `(bits(top) - bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
     tops: [[u32; 2]; 2],
     /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
     octaves: [[Octave; OCTAVES]; 2],
@@ -44,14 +45,13 @@ pub(crate) struct Inverse<const OCTAVES: usize> {
 enum Section {
     /// On the plateau's line: the time, in units.
     Line(i64),
-    /// On the ramp at a side. Or on the plateau, but too near to an end for the line: the near ramp then has no octaves
-    /// (`build::range`), and a search answers.
+    /// On the ramp at a side; or on the plateau below the line, where a search answers (`build::range`).
     Ramp(Side),
 }
 
 impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
-        // So a fraction of 0 finds no octave: its index is at least 99, the exponent's bits of the least top, 2⁻²⁸.
+        // So a fraction of 0 finds no octave: its index is a top's exponent, 105 or more (`LEAST_TOP`).
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let (exposure, shapes) = tried!(Exposure::new(opening, closing));
         let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
@@ -124,11 +124,12 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     /// The section of a fraction from a side, which has these bits.
     #[inline(always)]
     const fn section(&self, side: Side, bits: u32) -> Section {
-        // Negative numbers, as they count here above all others, and NaN have no octave on either ramp.
         let [count, last] = self.line_bits[side as usize];
-        // Of greater bits it wraps, and is more than `last`.
-        if last.wrapping_sub(bits) >= count {
-            return Section::Ramp(side.other_if((last.wrapping_sub(bits) as i32) < 0));
+        // Negative beyond the join. Of a negative number or NaN it is `count` or more: either ramp will do, as no
+        // octave has such bits.
+        let left = last.wrapping_sub(bits);
+        if left >= count {
+            return Section::Ramp(if (left as i32) < 0 { side.other() } else { side });
         }
         let word = in_line_units(bits);
         // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.
@@ -139,10 +140,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     // proofs/words.py
     #[inline(always)]
     const fn on_line(&self, u: u32) -> i64 {
-        let slope = self.exposure.line_slope as u64;
-        let (high, low) = (slope >> 32, slope & 0xFFFF_FFFF);
-        let way = high * u as u64 + ((low * u as u64) >> 32);
-        self.exposure.line_base.wrapping_add(way as i64)
+        self.exposure.line_base.wrapping_add(times(self.exposure.line_slope, (u as u64) << 32))
     }
 
     /// The time by a polynomial of a ramp, in units.
@@ -174,8 +172,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         //   top    0.375   0 01111101 100...
         //   bits   0.3     0 01111101 00110...   no borrow:  0.2 / 2, and the position is 0.2
         //   bits   0.2     0 01111100 10011...   a borrow:  (0.6 - 1) / 2 = -0.2, which is the position
-        let borrowed = (top ^ below) & 1 << 23;
-        let word = ((bits ^ borrowed) << 8) as i32;
+        let with_borrow = bits ^ (top ^ below) & 1 << 23;
+        let word = (with_borrow << 8) as i32;
         Some((octave, word.wrapping_add(word & !(word >> 31))))
     }
 
@@ -241,38 +239,33 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) const fn least_direct(&self, side: Side) -> f32 {
         let [count, last] = self.line_bits[side as usize];
         let mut bits = 0.5f32.to_bits();
-        while bits > 0 {
-            let fraction = Fraction { side, bits };
-            let next = match self.section(side, bits) {
+        loop {
+            bits = match self.section(side, bits) {
                 Section::Line(_) => last - count,
-                Section::Ramp(ramp) => {
-                    let (top, is_far) = (self.tops[side as usize][ramp as usize], !ramp.is(side));
-                    match self.look_up(fraction, ramp) {
-                        Some((octave, _)) if octave.exists() => {
-                            let end = octave::below(top, (top.wrapping_sub(bits) >> 23) as usize + 1);
-                            // A far ramp ends at its join.
-                            if is_far && end < last { last } else { end }
-                        }
-                        _ => break,
+                Section::Ramp(ramp) => match self.look_up(Fraction { side, bits }, ramp) {
+                    Some((octave, _)) if octave.exists() => {
+                        let top = self.tops[side as usize][ramp as usize];
+                        let end = octave::top_at(top, (top.wrapping_sub(bits) >> 23) as usize + 1);
+                        // A far ramp ends at its join.
+                        if !ramp.is(side) && end < last { last } else { end }
                     }
-                }
-            };
-            bits = next;
+                    _ => return f32::from_bits(bits),
+                },
+            }
         }
-        f32::from_bits(bits)
     }
 }
 
-/// How many `f32` are on the line between two joins, and the bits of its last one. It begins above [`FINE`] and ends
-/// below 1: the fraction 1 has the exact end.
+/// How many `f32` are on the line between two joins, and the bits of its last one. It begins above [`LINE_FROM`] and
+/// ends below 1: the fraction 1 has the exact end.
 const fn line_bits([near, far]: [f64; 2]) -> [u32; 2] {
     let (before, last, before_end) = (floor_bits(near), floor_bits(far), 1.0f32.to_bits() - 1);
     let last = if last < before_end { last } else { before_end };
-    let before = if before < FINE.to_bits() { FINE.to_bits() } else { before };
+    let before = if before < LINE_FROM.to_bits() { LINE_FROM.to_bits() } else { before };
     [last.saturating_sub(before), last]
 }
 
-/// An `f32` above [`FINE`] and below 1, by its bits, in units of 2⁻³².
+/// An `f32` above [`LINE_FROM`] and below 1, by its bits, in units of 2⁻³².
 // proofs/words.py
 #[inline(always)]
 const fn in_line_units(bits: u32) -> u32 {

@@ -1,15 +1,14 @@
 //! A polynomial of the place along a ramp, and the search for the place where it reaches a target.
 //!
-//! A search guesses where one term alone reaches the target ([`guess`]), and takes a step of Halley's, whose slopes are
-//! in single precision. Then it measures in fixed point what is missing, and ends if that is within the error. Else it
-//! takes a step again. From [`FREE_STEPS`] on it halves a bracket instead. So it always ends, within its error or at
-//! two neighbouring places.
+//! A search guesses where one term alone reaches the target ([`guess`]), and takes steps of Halley's in single
+//! precision. Once a step is short, what is missing is measured in fixed point: within the error, the search ends. From
+//! [`FREE_STEPS`] on it halves a bracket instead. So it always ends (proofs/search.py).
 
 use crate::fixed::{WORD, power_of_two, single, times, times_up};
 
 /// After so many steps each further one halves a bracket. Few searches take as many.
 const FREE_STEPS: u32 = 16;
-/// After a step of more than this share of the place, the next one needs no measuring.
+/// After a step of more than this share of the place, single precision tells what is missing.
 const FAR: f32 = 0.1;
 /// The most steps of a search. Each step evaluates a ramp's integral once.
 pub const MAX_EVALUATIONS: u32 = FREE_STEPS + 63;
@@ -38,7 +37,8 @@ impl<const N: usize> Series<'_, N> {
         times_up(sum, p, self.shift)
     }
 
-    /// The place where the series, which grows from 0, reaches a target, within an error; and the evaluations.
+    /// The place where the series, which grows from 0, reaches a target, within an error; and, for tests, the
+    /// evaluations.
     #[inline(always)]
     pub(crate) const fn solve(&self, target: i64, error: i64) -> (u64, u32) {
         if target <= error {
@@ -58,20 +58,22 @@ impl<const N: usize> Series<'_, N> {
         let (mut left, mut is_far) = (0.0, true);
         loop {
             evaluations += 1;
-            let x = single_place(p);
-            if is_far {
-                left = sought - value(&c, x);
-            }
-            let step = step(&c, x, left);
-            let size = place(step.abs());
-            let room = if step < 0.0 { p } else { u64::MAX - p };
-            let size = if size < room { size } else { room / 2 };
-            p = if step < 0.0 { p - size } else { p + size };
-            is_far = evaluations < FREE_STEPS && step.abs() > FAR * x;
-            if is_far {
-                continue;
-            }
-            if evaluations >= FREE_STEPS {
+            if evaluations < FREE_STEPS {
+                let x = single_place(p);
+                if is_far {
+                    left = sought - value(&c, x);
+                }
+                let step = step(&c, x, left);
+                let size = place(step.abs());
+                // Half way to the end, where the step would leave.
+                let room = if step < 0.0 { p } else { u64::MAX - p };
+                let size = if size < room { size } else { room / 2 };
+                p = if step < 0.0 { p - size } else { p + size };
+                is_far = step.abs() > FAR * x;
+                if is_far {
+                    continue;
+                }
+            } else {
                 p = low + (high - low) / 2;
             }
             let missing = target - self.at(p);

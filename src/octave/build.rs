@@ -1,13 +1,13 @@
 //! The octaves of a side: which part of a ramp each serves. A candidate is kept if it has a certificate.
 
 use crate::exposure::Exposure;
-use crate::fixed::{EIGHTH, FINE, LEAST_TOP, floor_bits};
+use crate::fixed::{EIGHTH, LEAST_TOP, LINE_FROM, floor_bits};
 use crate::fraction::Side;
 use crate::octave::candidate::candidate;
 use crate::octave::certificate::certificate;
 use crate::octave::path::Path;
 use crate::octave::span::Span;
-use crate::octave::{Octave, below};
+use crate::octave::{Octave, top_at};
 use crate::ramp::shape::Shape;
 
 /// By how many eighths a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
@@ -21,9 +21,9 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
     if !ramp.is(side) {
         return [far, 0.5];
     }
-    // The line begins above FINE. What lies between a join below that and FINE is on the plateau, but neither on the
-    // line nor on the far ramp: the look-up takes it for the near ramp, which therefore gets no octaves.
-    let would_take_plateau = near < far && near < FINE as f64;
+    // The line begins above LINE_FROM. What lies between a join below that and LINE_FROM is on the plateau, but neither
+    // on the line nor on the far ramp: the look-up takes it for the near ramp, which therefore gets no octaves.
+    let would_take_plateau = near < far && near < LINE_FROM as f64;
     let to = if near < 0.5 { near } else { 0.5 };
     [0.0, if would_take_plateau { 0.0 } else { to }]
 }
@@ -50,11 +50,10 @@ pub(crate) const fn build(exposure: &Exposure, shapes: &[Shape; 2], side: Side, 
 const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     let range = range(path.exposure, path.side, path.ramp);
     if range[0] >= range[1] {
-        // No octaves, so a search has to answer. A far ramp then begins at 1/2 or later, and is never looked up. A near
-        // ramp is, by fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of
-        // these, each has an index behind the far ramp's octaves, where all are NONE.
+        // So a search has to answer. A far ramp then begins at 1/2 or later, and is never looked up. A near ramp is, by
+        // fractions up to LINE_FROM (see `range`): with a top above these, their octaves are NONE.
         let far = path.exposure.join_fractions(path.side)[1];
-        return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
+        return (top_beyond([0.0, if far < LINE_FROM as f64 { far } else { LINE_FROM as f64 }], 0), 0);
     }
     // Each move until something is missing, then each to its end, then the best again.
     let (mut trial, mut best, mut most) = (0, 0, 0.0);
@@ -74,8 +73,8 @@ const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
 }
 
 /// Builds the octaves on a ramp from a first top on; on demand only until one has no polynomial. Returns their number,
-/// what part of the exposure their polynomials serve, where that before a first missing one counts 1024 times, and
-/// whether none is missing.
+/// what part of the exposure their polynomials serve, and whether none is missing. What is
+/// served before a first missing one counts 1024 times, so that `direct_triggers` comes first.
 #[inline(never)]
 const fn try_top(
     path: &Path,
@@ -87,7 +86,7 @@ const fn try_top(
     let (mut index, mut count, mut served, mut is_whole) = (0, 0, 0.0, true);
     while index < octaves.len() && (is_whole || !until_missing) {
         octaves[index] = Octave::NONE;
-        let top = below(first, index);
+        let top = top_at(first, index);
         if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
             // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else a far
             // ramp's `a` there would find the near ramp's first octave. An example in units of LEAST_TOP: the join

@@ -24,7 +24,7 @@ pub(crate) struct Candidate {
     pub(crate) step: f64,
     /// A bound of the polynomial's slope, in steps for a width.
     pub(crate) slope_bound_steps: f32,
-    /// What rounding adds to its time, in steps: Horner's, and a unit of time, to which the side's end is cut. A
+    /// What rounding adds to its time, in steps: Horner's, and a unit of time, as the side's end is rounded down. A
     /// neighbour that is searched needs no more to stay in order (proofs/search.py).
     pub(crate) truncation_steps: f32,
 }

@@ -48,7 +48,7 @@ pub(crate) const DEGREE: usize = 8;
 pub(crate) const SHIFT_MASK: u32 = 31;
 
 /// The bits of `top / 2^octaves`, for the bits of `top`; 0 if that is too small.
-pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
+pub(crate) const fn top_at(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }
 

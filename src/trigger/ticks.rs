@@ -168,9 +168,7 @@ impl TickScale {
     // proofs/ticks.py: tick
     #[inline(always)]
     pub(crate) const fn tick(&self, time_units: i64) -> u32 {
-        // No time is outside the interval, so nothing wraps. A polynomial there would err by all of `u`, or of `1 - u`,
-        // and its certificate allows half an ulp; the line begins after the start, is rounded down, and ends at the
-        // curve's end at most; a search stops at `Moment::until`.
+        // No time is outside the interval, so nothing wraps (proofs/ticks.py).
         let delay = time_units.wrapping_sub(self.start_units) as u64;
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);

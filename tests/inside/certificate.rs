@@ -8,7 +8,7 @@ use crate::octave::candidate::{Candidate, NODES, candidate};
 use crate::octave::certificate::{ErrorOverLimit, FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, ULP_ERROR, certificate};
 use crate::octave::path::{Path, Stretch, value};
 use crate::octave::span::Span;
-use crate::octave::{DEGREE, Octave, below};
+use crate::octave::{DEGREE, Octave, top_at};
 use crate::ramp::bezier::CubicBezier;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::curves::{Rng, named, random_hard, random_typical};
@@ -52,7 +52,7 @@ impl Truth {
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
                 let (range, path) = (range(&exposure, side, ramp), Path::new(&exposure, &shapes, side, ramp));
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
-                    if let Some(span) = Span::new(range, below(steps, index)) {
+                    if let Some(span) = Span::new(range, top_at(steps, index)) {
                         self.octaves += 1;
                         path.judge(octave, &span, &exact, samples, &mut self.greatest);
                     }
@@ -169,7 +169,7 @@ fn an_offset_beyond_its_word_is_refused() {
         let mut octaves = [Octave::NONE; 8];
         let tops = build(&exposure, &shapes, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
-            let Some(span) = Span::new(range(&exposure, side, side), below(tops[side as usize], index)) else {
+            let Some(span) = Span::new(range(&exposure, side, side), top_at(tops[side as usize], index)) else {
                 continue;
             };
             let (candidate, mut stretch) = path.built(&span);

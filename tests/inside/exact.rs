@@ -7,7 +7,7 @@ use crate::fixed::{
 use crate::fraction::{Fraction, Side};
 use crate::inverse::Inverse;
 use crate::octave::build::{build, range};
-use crate::octave::{Octave, below, bound, times_high_by_halves};
+use crate::octave::{Octave, bound, times_high_by_halves, top_at};
 use crate::ramp::bezier::CubicBezier;
 use crate::rate::Hz;
 use crate::search::{MAX_EVALUATIONS, Series};
@@ -198,8 +198,8 @@ fn the_octave_of_a_fraction() {
                 }
                 // The octave's top by its definition: halved until the fraction is above half of it.
                 let mut top = first_top;
-                while below(top, 1) >= bits {
-                    top = below(top, 1);
+                while top_at(top, 1) >= bits {
+                    top = top_at(top, 1);
                 }
                 let power = f64::from(f32::from_bits(top & 0xFF80_0000));
                 let exact = (f64::from(a) / power * power_of_two_f64(32)) as i128;
