@@ -20,11 +20,7 @@ pub enum Part {
 
 impl fmt::Display for Part {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(match self {
-            Self::Opening => "opening ramp",
-            Self::Plateau => "plateau",
-            Self::Closing => "closing ramp",
-        })
+        out.write_str(self.name())
     }
 }
 
@@ -89,91 +85,59 @@ macro_rules! tried {
 }
 pub(crate) use tried;
 
-/// A text about a part.
-macro_rules! of_part {
-    ($part:expr, $($text:literal),+) => {
-        match $part {
-            Part::Opening => concat!("opening ramp: ", $($text),+),
-            Part::Plateau => concat!("plateau: ", $($text),+),
-            Part::Closing => concat!("closing ramp: ", $($text),+),
+impl Part {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Opening => "opening ramp",
+            Self::Plateau => "plateau",
+            Self::Closing => "closing ramp",
         }
-    };
-}
-
-/// A text about a control point of a ramp.
-macro_rules! of_point {
-    ($part:expr, $point:expr, $before:literal, $after:literal) => {
-        match $point {
-            0 => of_part!($part, $before, "first point", $after),
-            1 => of_part!($part, $before, "first inner point", $after),
-            2 => of_part!($part, $before, "second inner point", $after),
-            _ => of_part!($part, $before, "last point", $after),
-        }
-    };
+    }
 }
 
 impl CurveError {
-    /// Panics with the error's text, in a constant at compile time. [`expect!`](crate::expect) calls it.
-    #[track_caller]
-    pub const fn panic(self) -> ! {
-        panic!("{}", self.message())
-    }
-
-    /// The text that [`Display`](fmt::Display) prints.
-    pub const fn message(&self) -> &'static str {
-        use CurveError as E;
-        match *self {
-            E::NotFinite(part) => {
-                of_part!(part, "a control point is NaN, infinite or beyond f32 (3.4e38)")
+    const fn text(self) -> Text {
+        const fn of(part: Part, text: &str) -> Text {
+            Text::new(part.name()).then(": ").then(text)
+        }
+        const fn of_point(part: Part, what: &str, point: u8) -> Text {
+            let points = ["first point", "first inner point", "second inner point", "last point"];
+            of(part, "the ").then(what).then(" of its ").then(points[point as usize & 3])
+        }
+        match self {
+            Self::NotFinite(part) => of(part, "a control point is NaN, infinite or beyond f32 (3.4e38)"),
+            Self::TimesOutOfOrder => {
+                Text::new("times out of order: open_start <= open_end <= close_start <= close_end is required")
             }
-            E::TimesOutOfOrder => "times out of order: open_start <= open_end <= close_start <= close_end is required",
-            E::TimeOutsideRamp { part, point } => {
-                of_point!(part, point, "the time of its ", " has to lie between the ramp's ends")
+            Self::TimeOutsideRamp { part, point } => {
+                of_point(part, "time", point).then(" has to lie between the ramp's ends")
             }
-            E::FractionOutsideRamp { part, point } => of_point!(
+            Self::FractionOutsideRamp { part, point } => of_point(part, "time", point)
+                .then(" has to lie on the ramp, as a fraction of the whole interval: 0 at open_start, 1 at close_end"),
+            Self::TimesCross(part) => of(
                 part,
-                point,
-                "the time of its ",
-                " has to lie on the ramp, as a fraction of the whole interval: \
-                 0 at open_start, 1 at close_end"
+                "its first inner point is later than its second by more than 15/16 of the ramp; move them closer",
             ),
-            E::TimesCross(part) => of_part!(
-                part,
-                "its first inner point is later than its second by more than 15/16 of the ramp; \
-                 move them closer"
+            Self::OpennessOutOfRange { part, point } => of_point(part, "openness", point).then(" has to be in [0, 1]"),
+            Self::DensityOutOfRange => Text::new(
+                "the density has to be in [0, 1] at each control point; scale a greater one down (CubicBezier::scaled)",
             ),
-            E::OpennessOutOfRange { part, point } => {
-                of_point!(part, point, "the openness of its ", " has to be in [0, 1]")
+            Self::NotFullyOpen(Part::Closing) => of(Part::Closing, "it has to begin fully open, at openness 1"),
+            Self::NotFullyOpen(part) => of(part, "it has to end fully open, at openness 1"),
+            Self::IntervalUnresolved => Text::new("the interval is too short for its distance from time 0: below ")
+                .then("2^-16 of its greatest time; count times from a nearer origin"),
+            Self::IntervalOutOfRange => {
+                Text::new("the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)")
             }
-            E::DensityOutOfRange => {
-                "the density has to be in [0, 1] at each control point; scale a greater one down \
-                 (CubicBezier::scaled)"
+            Self::DensityTooSmall => {
+                Text::new("the density's exposure is below 2^-20 of its interval; scale it up (CubicBezier::scaled)")
             }
-            E::NotFullyOpen(Part::Closing) => "closing ramp: it has to begin fully open, at openness 1",
-            E::NotFullyOpen(part) => of_part!(part, "it has to end fully open, at openness 1"),
-            E::IntervalUnresolved => {
-                "the interval is too short for its distance from time 0: below 2^-16 of its greatest \
-                 time; count times from a nearer origin"
-            }
-            E::IntervalOutOfRange => "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)",
-            E::DensityTooSmall => {
-                "the density's exposure is below 2^-20 of its interval; scale it up \
-                 (CubicBezier::scaled)"
-            }
-            E::TooShort(part) => {
-                of_part!(part, "it is shorter than 2^-24 of the greatest time; make it longer, or give it no length")
+            Self::TooShort(part) => {
+                of(part, "it is shorter than 2^-24 of the greatest time; make it longer, or give it no length")
             }
         }
     }
 }
-
-impl fmt::Display for CurveError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(self.message())
-    }
-}
-
-impl core::error::Error for CurveError {}
 
 /// Why a frame is refused. The texts say what to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -225,12 +189,6 @@ pub enum ScheduleError {
 }
 
 impl ScheduleError {
-    /// Panics with the error's text, in a constant at compile time. [`expect!`](crate::expect) calls it.
-    #[track_caller]
-    pub const fn panic(self) -> ! {
-        panic!("{}", self.text().as_str())
-    }
-
     const fn text(self) -> Text {
         match self {
             Self::RateZero => Text::new("the timer's rate is 0"),
@@ -265,24 +223,32 @@ const fn gap_before(name: &str, i: u32, gap: u32, min_gap: u32) -> Text {
     text.then("; the minimum is ").number(min_gap)
 }
 
-impl fmt::Display for ScheduleError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(self.text().as_str())
-    }
+/// What errors do with their `text`.
+macro_rules! told {
+    ($error:ident) => {
+        impl $error {
+            /// Panics with the error's text, in a constant at compile time. [`expect!`](crate::expect) calls it.
+            #[track_caller]
+            pub const fn panic(self) -> ! {
+                panic!("{}", self.text().as_str())
+            }
+        }
+
+        impl fmt::Display for $error {
+            fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+                out.write_str(self.text().as_str())
+            }
+        }
+
+        impl core::error::Error for $error {}
+    };
 }
 
-impl core::error::Error for ScheduleError {}
+told!(CurveError);
+told!(ScheduleError);
 
 /// Unwraps the result of a constructor, or of a frame's call. In a `const` or a `static`, an error is a compile error
 /// with its text.
-///
-/// ```
-/// use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
-/// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-/// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000);
-/// const TICKS: [u32; 5] = expect!(FLASH.ticks());
-/// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
-/// ```
 ///
 /// ```compile_fail,E0080
 /// # use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};

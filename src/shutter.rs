@@ -318,15 +318,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         direct_triggers(&self.inverse)
     }
 
-    /// Puts the curve on a timer. The curve's times have to be in seconds.
-    ///
-    /// ```
-    /// use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
-    /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000)));
-    /// const TICKS: [u32; 5] = expect!(FLASH.ticks());
-    /// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
-    /// ```
+    /// Puts the curve on a timer, as [`TimedCurve`] shows. The curve's times have to be in seconds.
     ///
     /// # Errors
     /// Returns a [`ScheduleError`] if the rate is 0, or if the curve has more than 2³¹ ticks at this rate.

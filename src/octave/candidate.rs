@@ -69,7 +69,7 @@ pub(crate) const fn candidate(path: &Path, span: &Span, stretch: &Stretch) -> Op
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }
-    let end = units.of(path.exposure.end_time(path.side));
+    let end = path.exposure.end_units(path.side);
     octave.middle = if path.side.is_end() { end - middle } else { end + middle };
     octave.factor = if path.side.is_end() { -factor } else { factor };
     Some(Candidate {

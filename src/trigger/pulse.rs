@@ -41,7 +41,7 @@ impl<'a, const OCTAVES: usize> Pulses<'a, OCTAVES> {
     #[inline(always)]
     pub(crate) const fn fill(&self, pulses: &mut [Pulse], min_gap: u32, min_pulse: u32) -> Result<(), ScheduleError> {
         let (mut i, mut last) = (0, 0);
-        while i < self.ticks.n() {
+        while i < self.ticks.n {
             let pulse = self.at(i);
             let length = pulse.off.saturating_sub(pulse.on);
             if length < min_pulse {

@@ -1,7 +1,7 @@
 //! From fractions of the exposure to the ticks of a timer.
 
 use crate::error::ScheduleError;
-use crate::fixed::DOUBLE_WORD;
+use crate::fixed::{DOUBLE_WORD, times};
 use crate::fraction::{Fraction, Side};
 use crate::inverse::Inverse;
 use crate::rate::Hz;
@@ -16,7 +16,8 @@ pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 #[derive(Clone)]
 pub(crate) struct Ticks<'a, const OCTAVES: usize> {
     inverse: &'a Inverse<OCTAVES>,
-    n: u32,
+    /// The number of triggers or pulses.
+    pub(crate) n: u32,
     scale: TickScale,
 }
 
@@ -26,12 +27,6 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
             return Err(ScheduleError::TooMany { max: MOST_TRIGGERS });
         }
         Ok(Self { inverse, n, scale })
-    }
-
-    /// The number of triggers or pulses.
-    #[inline(always)]
-    pub(crate) const fn n(&self) -> u32 {
-        self.n
     }
 
     /// The tick of trigger `i`.
@@ -116,11 +111,6 @@ const fn too_high(length: u64, rate: u32, exponent: i32) -> ScheduleError {
     ScheduleError::RateTooHigh { max: Hz(max) }
 }
 
-/// The time of an end of the curve.
-const fn end_units<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>, side: Side) -> i64 {
-    inverse.exposure.in_units(inverse.exposure.end_time(side))
-}
-
 /// From times in units to ticks, in fixed point.
 #[derive(Clone, Copy)]
 pub(crate) struct TickScale {
@@ -141,8 +131,9 @@ impl TickScale {
         if rate == 0 {
             return Err(ScheduleError::RateZero);
         }
-        let [start_units, end_units] = [end_units(inverse, Side::Start), end_units(inverse, Side::End)];
-        let (length, exponent) = ((end_units - start_units) as u64, inverse.exposure.units().exponent);
+        let curve = &inverse.exposure;
+        let [start_units, end_units] = [curve.end_units(Side::Start), curve.end_units(Side::End)];
+        let (length, exponent) = ((end_units - start_units) as u64, curve.units().exponent);
         if exponent_of_ticks(length, rate, exponent) > TICK_BITS {
             return Err(too_high(length, rate, exponent));
         }
@@ -161,7 +152,7 @@ impl TickScale {
 
     /// The tick at which the curve ends.
     pub(crate) const fn length<const OCTAVES: usize>(&self, inverse: &Inverse<OCTAVES>) -> u32 {
-        self.tick(end_units(inverse, Side::End))
+        self.tick(inverse.exposure.end_units(Side::End))
     }
 
     /// The nearest tick to a time.
@@ -171,8 +162,7 @@ impl TickScale {
         // No time is outside the interval, so nothing wraps (proofs/ticks.py).
         let delay = time_units.wrapping_sub(self.start_units) as u64;
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
-        let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
-        let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
+        let product = times(delay as i64, (self.rate as u64) << 32) as u64;
         (((product >> (self.down & 63)) + 1) >> 1) as u32
     }
 }
