@@ -189,7 +189,7 @@ pub fn place(text: &str, key: &str) -> Option<usize> {
 
 /// What is wrong with a text, in words for those who do not know what a float is.
 fn told(text: &str, error: &toml::de::Error) -> Fault {
-    let mut reason = error.to_string();
+    let mut reason = error.message().to_string();
     // What is missing is on no line; its span is the whole table.
     let at = error.span().filter(|_| !reason.starts_with("missing field")).map(|span| span.start);
     if reason.contains("field `") && !reason.contains("trace") {

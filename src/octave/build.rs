@@ -28,8 +28,7 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
     [0.0, if would_take_plateau { 0.0 } else { to }]
 }
 
-/// Builds the octaves of a side: the far ramp's, then the near ramp's. Returns the bits of the ramps' stored tops
-/// ([`octave`](crate::octave)).
+/// Builds the octaves of a side: the far ramp's, then the near ramp's. Returns the bits of the ramps' tops at index 0.
 // Out of line, with a slice: one copy for any number of octaves.
 #[inline(never)]
 pub(crate) const fn build(exposure: &Exposure, shapes: &[Shape; 2], side: Side, octaves: &mut [Octave]) -> [u32; 2] {
@@ -119,8 +118,8 @@ const fn certified(path: &Path, span: &Span) -> Octave {
 /// more.
 #[inline(never)]
 const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
-    // Rounded up, so that an `a` at the range's end is found. One just beyond may be looked up here, too: for an `a`
-    // from the end `inverse_cdf` takes the ramp from the join as counted from the start, and the two are rounded apart.
+    // Rounded up: no `a` of the ramp is above its top. (An `a` just beyond the range may be looked up here, too, as a
+    // join is rounded differently from either end.)
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };

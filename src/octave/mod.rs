@@ -5,17 +5,17 @@
 //! up to the top. A ramp's first top is at or above its greatest `a`; each further one is half of the one before. So
 //! octaves narrow as fast as the density may fall, and one degree is about as exact, relatively, in each.
 //!
-//! A side's array has the far ramp's `k` octaves, then the near ramp's. The near ramp's stored top is its first top,
-//! times `2^k`: so `(bits(stored top) - bits(a)) >> 23` is an index of the array for either ramp.
+//! A side's array has the far ramp's `k` octaves, then the near ramp's. Of each ramp the top *at index 0* is stored: of
+//! the near ramp it is the first top, times `2^k`. So `(bits(top at index 0) - bits(a)) >> 23` is an index for either.
 //!
-//! An octave's *power* is the power of two at or below its top. A *position* is `a` less the power, in 2⁻³² of it. It
-//! is an `i32` that may wrap.
+//! An octave's *power* is the power of two at or below its top. A *position* is `a` less the power, in 2⁻³² of it: an
+//! `i32`, which wraps above 3/2 of the power. So does a center, and their difference fits.
 //!
 //! ```text
 //! a             0     0.023   0.047   0.09375   0.125   0.25    0.5
 //! index          ... 4  |   3   |   2   |         |   1   |   0   |
 //! serves        near ramp, up to 0.09             far ramp, from 0.2
-//! stored top    0.09375 · 2² = 0.375              0.5
+//! at index 0    0.09375 · 2² = 0.375              0.5
 //!
 //! index 2, top 0.09375, power 0.0625:         bits          position      (a - power) / power
 //!               a = 0.078125  = 1.25 · 2⁻⁴    0x3DA0_0000   0x4000_0000    1/4
@@ -47,7 +47,7 @@ pub(crate) const DEGREE: usize = 8;
 /// The bits of a center that are its shift: an offset counts `2^shift` for a position.
 pub(crate) const SHIFT_MASK: u32 = 31;
 
-/// The bits of `top / 2^octaves`, for the bits of `top`; 0 if that is too small.
+/// The bits of the top at an index, from those of the one at index 0; 0 if that is too small.
 pub(crate) const fn top_at(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }

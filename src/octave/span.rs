@@ -49,7 +49,8 @@ impl Span {
         Some(Self { from, to, middle, half, power, width, shift })
     }
 
-    /// 2³² plus the position of the middle, whose lowest bits are the shift. The lower word is `Octave::center`.
+    /// The middle in 2⁻³² of the power, which is 2³² more than its position; its lowest bits are the shift instead. The
+    /// lower word is `Octave::center`.
     pub(crate) const fn center(&self) -> i64 {
         fixed_down(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
     }
