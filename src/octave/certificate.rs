@@ -139,8 +139,8 @@ impl PerStep {
     const fn bounds(&self, [time_error, exposure_error]: [f32; KINDS]) -> ErrorOverLimit {
         let error = time_error + self.rounding_steps;
         let rounding = self.rounding_steps + error * WEIGHT_OFF;
-        // most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if that is inside, or at an
-        // end.
+        // most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if that is inside, or at
+        // an end.
         let [_, t1, t2, t3] = self.time_steps;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
         let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };

@@ -4,7 +4,7 @@
 use core::hash::{Hash, Hasher};
 use core::hint::black_box;
 
-use shutter_curve::{CubicBezier, CurveError, Hz, Pulse, ShutterCurve};
+use shutter_curve::{CubicBezier, Hz, Pulse, ShutterCurve};
 
 use crate::baseline::Ramp;
 use crate::{CURVES, DEFAULT, uniform};
@@ -46,11 +46,6 @@ impl Fnv {
     /// What was made, or else why not.
     fn made<T, E: Hash + PartialEq + Copy>(&mut self, made: Result<T, E>) -> Option<T> {
         made.map_err(|error| self.add((error == black_box(error)).then_some(error))).ok()
-    }
-
-    fn curve<T>(&mut self, made: Result<T, CurveError>) -> Option<T> {
-        self.write(made.as_ref().err().map_or("", CurveError::message).as_bytes());
-        self.made(made)
     }
 
     /// All that an iterator of the crate does.
@@ -99,7 +94,7 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let hash = &mut Fnv::new();
     let [opening, closing] = ramps.map(CubicBezier::new);
     hash.add([opening == closing]);
-    if let Some(curve) = hash.curve(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
+    if let Some(curve) = hash.made(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
         answers(hash, &curve, us.iter().copied().chain((0..512).map(uniform)).chain(ODD));
         for odd in ODD {
             hash.floats([curve.cdf(odd), curve.openness(odd), curve.pdf(odd)]);
@@ -119,18 +114,18 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let lines = (CubicBezier::line((a, 0.0), (b, 1.0)), CubicBezier::line((c, 1.0), (d, 0.0)));
     if OCTAVES == DEFAULT {
         for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)] {
-            let curve = hash.curve(curve);
+            let curve = hash.made(curve);
             hash.add(curve.map(|curve| curve.direct_triggers()));
         }
-        let mixed = hash.curve(ShutterCurve::new(opening, lines.1));
+        let mixed = hash.made(ShutterCurve::new(opening, lines.1));
         hash.floats(mixed.map(|curve| curve.exposure()));
         for by in [0.5, 1e-7, 2.0] {
-            let density = hash.curve(ShutterCurve::density(opening.scaled(by)));
+            let density = hash.made(ShutterCurve::density(opening.scaled(by)));
             hash.floats(density.map(|curve| curve.normalization()));
         }
     }
     for (opening, closing) in [(opening, closing), lines, (lines.0, closing)] {
-        if let Some(curve) = hash.curve(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
+        if let Some(curve) = hash.made(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
             hash.add([curve == black_box(curve.clone())]);
             answers(hash, &curve, (0..16).map(uniform));
         }
@@ -196,9 +191,9 @@ fn refusals() -> u64 {
         let (t, f) = &mut ramps[place / 8][place / 2 % 4];
         *(if place % 2 == 0 { t } else { f }) = odd;
         let [opening, closing] = ramps.map(CubicBezier::new);
-        let curve = hash.curve(ShutterCurve::<0>::with_octaves(opening, closing));
+        let curve = hash.made(ShutterCurve::<0>::with_octaves(opening, closing));
         hash.floats(curve.map(|curve| curve.exposure()));
     }
-    hash.curve(ShutterCurve::linear(1e9, 1e9, 1e9, 1e9 + 64.0));
+    hash.made(ShutterCurve::linear(1e9, 1e9, 1e9, 1e9 + 64.0));
     hash.finish()
 }
