@@ -22,7 +22,7 @@
 
 use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
-use crate::fixed::{LINE_FROM, floor_bits, times, upper_word};
+use crate::fixed::{LINE_FROM, floor_bits, upper_word};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
 use crate::octave::{self, Octave, build};
@@ -129,7 +129,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         // octave has such bits.
         let left = last.wrapping_sub(bits);
         if left >= count {
-            return Section::Ramp(if (left as i32) < 0 { side.other() } else { side });
+            return Section::Ramp(Side::end_if(side.is_end() != ((left as i32) < 0)));
         }
         let word = in_line_units(bits);
         // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.
@@ -140,7 +140,10 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     // proofs/words.py
     #[inline(always)]
     const fn on_line(&self, u: u32) -> i64 {
-        self.exposure.line_base.wrapping_add(times(self.exposure.line_slope, (u as u64) << 32))
+        // `fixed::times` with what is known here: the slope is not negative, and there is no lower word.
+        let slope = self.exposure.line_slope as u64;
+        let way = (slope >> 32) * u as u64 + (((slope & 0xFFFF_FFFF) * u as u64) >> 32);
+        self.exposure.line_base.wrapping_add(way as i64)
     }
 
     /// The time by a polynomial of a ramp, in units.

@@ -58,22 +58,21 @@ impl<const N: usize> Series<'_, N> {
         let (mut left, mut is_far) = (0.0, true);
         loop {
             evaluations += 1;
-            if evaluations < FREE_STEPS {
-                let x = single_place(p);
-                if is_far {
-                    left = sought - value(&c, x);
-                }
-                let step = step(&c, x, left);
-                let size = place(step.abs());
-                // Half way to the end, where the step would leave.
-                let room = if step < 0.0 { p } else { u64::MAX - p };
-                let size = if size < room { size } else { room / 2 };
-                p = if step < 0.0 { p - size } else { p + size };
-                is_far = step.abs() > FAR * x;
-                if is_far {
-                    continue;
-                }
-            } else {
+            let x = single_place(p);
+            if is_far {
+                left = sought - value(&c, x);
+            }
+            let step = step(&c, x, left);
+            let size = place(step.abs());
+            // Half way to the end, where the step would leave.
+            let room = if step < 0.0 { p } else { u64::MAX - p };
+            let size = if size < room { size } else { room / 2 };
+            p = if step < 0.0 { p - size } else { p + size };
+            is_far = evaluations < FREE_STEPS && step.abs() > FAR * x;
+            if is_far {
+                continue;
+            }
+            if evaluations >= FREE_STEPS {
                 p = low + (high - low) / 2;
             }
             let missing = target - self.at(p);

@@ -1,7 +1,7 @@
 //! From fractions of the exposure to the ticks of a timer.
 
 use crate::error::ScheduleError;
-use crate::fixed::{DOUBLE_WORD, times};
+use crate::fixed::DOUBLE_WORD;
 use crate::fraction::{Fraction, Side};
 use crate::inverse::Inverse;
 use crate::rate::Hz;
@@ -162,7 +162,8 @@ impl TickScale {
         // No time is outside the interval, so nothing wraps (proofs/ticks.py).
         let delay = time_units.wrapping_sub(self.start_units) as u64;
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
-        let product = times(delay as i64, (self.rate as u64) << 32) as u64;
+        let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
+        let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
         (((product >> (self.down & 63)) + 1) >> 1) as u32
     }
 }
