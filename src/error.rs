@@ -139,14 +139,14 @@ impl CurveError {
     }
 }
 
-/// Why a frame is refused. The texts say what to change.
+/// Why a rate or a frame is refused. The texts say what to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ScheduleError {
     /// The timer's rate is 0.
     RateZero,
-    /// The curve has more than 2³¹ ticks at this rate. Its times may not be in seconds.
+    /// The curve has more than 2³¹ ticks at this rate. Perhaps its times are not in seconds.
     RateTooHigh {
         /// The highest rate that is accepted, or 0 if there is none.
         max: Hz,
@@ -247,8 +247,8 @@ macro_rules! told {
 told!(CurveError);
 told!(ScheduleError);
 
-/// Unwraps the result of a constructor, or of a frame's call. In a `const` or a `static`, an error is a compile error
-/// with its text.
+/// Unwraps a result whose error is a [`CurveError`] or a [`ScheduleError`]. In a `const` or a `static`, an error is a
+/// compile error with its text.
 ///
 /// ```compile_fail,E0080
 /// # use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};

@@ -1,7 +1,7 @@
 //! For firmware that fires a burst of flashes during one camera exposure. You describe a shutter by its openness over
-//! time. The crate splits the light that this shutter would collect into equal shares, and tells the timer tick at
-//! which to fire for each. If the camera's own shutter stays open all the while, equal flashes at these ticks render a
-//! moving subject as the described shutter would.
+//! time. The crate splits the light that this shutter would collect into equal shares, and gives for each the timer
+//! tick at which to fire. If the camera's own shutter stays open all the while, equal flashes at these ticks
+//! approximate how the described shutter would render a moving subject.
 //!
 //! ```
 //! use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
@@ -10,7 +10,7 @@
 //! static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 //! // On a 1 MHz timer, for a lamp that needs 1 ms between two flashes.
 //! const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000);
-//! // Five flashes, in the timer's ticks. Too many, or a wrong curve, would not compile.
+//! // Five flashes, in the timer's ticks. Too many, or an invalid curve, would not compile.
 //! const TICKS: [u32; 5] = expect!(FLASH.ticks());
 //! assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
 //! // Half of the light is in after 5 ms.
@@ -41,7 +41,7 @@
 //! |---|---|
 //! | a shutter from [`CubicBezier`]s, straight ramps, or RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
 //! | a curve, ticks or pulses in a constant | [`expect!`](expect) |
-//! | a smaller curve, or fewer searches | [`with_octaves`] |
+//! | a curve in less memory, or fewer searches | [`with_octaves`] |
 //! | a probability density from one Bezier | [`density`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness or the probability density at a time | [`cdf`], [`openness`], [`pdf`] |
@@ -56,7 +56,7 @@
 //!
 //! The program `shutter`, in the crate's repository, fits a curve to a photodiode's record of a shutter. It writes a
 //! module for firmware with the ticks of a frame and their delay from the camera's sync. With `--curve` the module also
-//! holds the curve as a `static`, and needs this crate. You supply four facts that the record does not show: the
+//! holds the curve as a `static`, and needs this crate. You supply four facts that the record may not show: the
 //! set-up, the sync's edge, the timer's rate, and what the lamp needs from one flash to the next. The set-up is
 //! `in_path` if light passes through the measured shutter, and `emulated` if the camera's own shutter stays open.
 //!

@@ -28,14 +28,14 @@ use crate::trigger::timed::TimedCurve;
 /// 5. Each part has zero length, or at least 2⁻²⁴ of that larger number.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
-/// Lengths are compared in `f64`, so one may be too small by a 2⁻⁵³ of itself.
+/// Lengths are compared in `f64`, so one that is 2⁻⁵³ of itself too small may pass.
 ///
 /// # Octaves
 ///
 /// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles: 1/4 to 1/2, 1/8 to 1/4, and so on.
 /// Above 1/2 the same holds for `1 - u`. The curve stores a polynomial for each of the widest octaves that lie on a
-/// ramp: up to `OCTAVES` of them below 1/2, and as many above. They answer most fractions, and a search answers the
-/// rest.
+/// ramp: up to `OCTAVES` of them below 1/2, and as many above. They answer most fractions on ramps, and a search
+/// answers the rest.
 ///
 /// With the default of 8, about one fraction in 400 of a typical curve needs a search. With 0, every fraction on a ramp
 /// does. The promised accuracy is always the same. A curve takes 368 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
@@ -99,7 +99,7 @@ impl ShutterCurve {
     /// let times = [0.0, 2.5, 7.5, 10.0];
     /// let curve = ShutterCurve::shutteropening(times, [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0])?;
     /// assert_eq!(curve.close_end(), 10.0);
-    /// // Fractions of each ramp, as in an easing curve, are refused.
+    /// // Fractions of each ramp, as in an easing curve, mostly fall outside it and are refused.
     /// let error = ShutterCurve::shutteropening(times, [0.4, 0.0, 0.6, 1.0, 0.4, 1.0, 0.6, 0.0]);
     /// assert_eq!(error, Err(CurveError::FractionOutsideRamp { part: Part::Opening, point: 1 }));
     /// # Ok::<(), CurveError>(())
@@ -295,7 +295,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// time. A larger frame may need none either. Pulses may need searches even in smaller frames.
     ///
     /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
-    /// double it, up to 2²². If it is 0, a frame of any size may need searches: on curves that are too difficult for
+    /// double it, up to 2²². It is 0, and a frame of any size may need searches, on curves that are too difficult for
     /// polynomials, and with `OCTAVES = 0` if the middle of the exposure lies on a ramp.
     ///
     /// A constant can check the number at compile time:
@@ -306,7 +306,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
     ///
-    /// On the same curve, 4096 triggers would need searches. This does not compile:
+    /// On the same curve, 4096 triggers may need searches. This does not compile:
     ///
     /// ```compile_fail,E0080
     /// # use shutter_curve::{ShutterCurve, expect};

@@ -1,5 +1,5 @@
-//! The iterators over a frame, which is the triggers or the pulses of one exposure: from either end, or any item at
-//! once.
+//! The iterators over a frame, which is the triggers or the pulses of one exposure: from either end, or any item
+//! directly.
 
 use core::ops::Range;
 
@@ -22,7 +22,7 @@ use crate::trigger::ticks::Ticks;
 ///     FLASH.trigger_ticks(16)
 /// }
 ///
-/// /// `base` is the timer's count at which the shutter starts to open.
+/// /// `base` is the timer's count at the curve's `open_start`.
 /// fn on_interrupt(frame: &mut TriggerTicks<'static>, base: u32, set_compare: impl Fn(u32)) {
 ///     if let Some(tick) = frame.next() {
 ///         set_compare(base.wrapping_add(tick));

@@ -1,4 +1,4 @@
-//! Pulses that get equal doses of a steady lamp through the shutter: on and off, as timer ticks.
+//! Pulses of a steady lamp that send equal light through the shutter: on and off, as timer ticks.
 
 use crate::error::ScheduleError;
 use crate::trigger::ticks::Ticks;

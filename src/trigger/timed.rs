@@ -1,4 +1,4 @@
-//! A curve on a timer: what a frame of triggers or pulses is asked of.
+//! A curve on a timer, which plans frames of triggers or pulses.
 
 use crate::error::{ScheduleError, tried};
 use crate::inverse::Inverse;
@@ -10,15 +10,15 @@ use crate::trigger::ticks::{MOST_TRIGGERS, TickScale, Ticks};
 /// A curve on a timer of a known rate, from [`ShutterCurve::at`](crate::ShutterCurve::at): it plans frames of triggers
 /// and pulses, in the timer's ticks.
 ///
-/// Ticks count from the moment when the shutter starts to open. Add your timer's count at that moment, with
+/// Ticks count from the curve's `open_start`. Add your timer's count at that moment, with
 /// `wrapping_add`.
 ///
 /// *Triggers* divide the exposure into equal shares, and each is in the middle of its share: trigger `i` of `n` is at
-/// the fraction `u = (2i + 1) / 2n`. Use them while the camera's own shutter stays open.
+/// the fraction `u = (2i + 1) / (2n)`. Use them while the camera's own shutter stays open.
 ///
-/// *Pulses* are for a steady lamp that shines through this shutter. Each sends the same amount of light through it: it
-/// covers the fraction `duty` of its share, in the middle. Pulse `i` starts at `u = (i + 1/2 - duty/2) / n` and ends at
-/// `u = (i + 1/2 + duty/2) / n`. Where the shutter is half open, it lasts longer.
+/// *Pulses* are for a steady lamp that shines through this shutter. All send the same light through it: each covers
+/// the fraction `duty` of its share, in the middle. Pulse `i` starts at `u = (i + 1/2 - duty/2) / n` and ends at
+/// `u = (i + 1/2 + duty/2) / n`. Where the shutter is partly open, a pulse lasts longer.
 ///
 /// Ticks never decrease, and pulses never overlap. If a typical curve has at most 2²⁴ ticks, each trigger is within
 /// 0.85 tick of the exact time. On longer curves the error can be many ticks: 8 were seen at 2²⁹ ticks, and 32 at 2³¹.
@@ -78,7 +78,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// The tick at which the shutter is closed, at most 2³¹. No trigger or pulse is later.
     ///
-    /// A timer of 16 bits can tell before from after if this is at most 2¹⁵:
+    /// A 16-bit timer can tell whether a tick is still to come if this is at most 2¹⁵:
     ///
     /// ```
     /// use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
@@ -94,8 +94,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// The ticks of a frame of `n` triggers, as an iterator.
     ///
-    /// The exposure alone often shows that `n` triggers keep the gap, and the call is short. Otherwise it computes the
-    /// whole frame to check it, as [`ticks_into`](Self::ticks_into) does.
+    /// Often the exposure alone shows that `n` triggers keep the gap, and the call is fast. Otherwise the call computes
+    /// the whole frame to check it, as [`ticks_into`](Self::ticks_into) does.
     ///
     /// ```
     /// use shutter_curve::{Hz, ShutterCurve, expect};
@@ -160,13 +160,13 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
         Ok(ticks)
     }
 
-    /// A number of triggers, up to `wanted`, that keep the gap. If it is below `wanted` and 2²², one more trigger would
+    /// A number of triggers, up to `wanted`, that keep the gap. If it is below both `wanted` and 2²², one more would
     /// not keep the gap. It is 0 only if `wanted` is 0.
     ///
-    /// On a coarse timer, a smaller number may fail, and a larger one may keep the gap.
+    /// On a coarse timer, rounding may make fewer triggers fail, or at least two more pass.
     ///
-    /// The exposure alone often shows that `wanted` triggers keep the gap, and the call is short. Otherwise it computes
-    /// frames until it finds the number: 6 on average, and up to 19, were seen.
+    /// Often the exposure alone shows that `wanted` triggers keep the gap, and the call is fast. Otherwise the call
+    /// computes frames until it finds the number: 6 frames in the mean, and up to 19, were seen.
     #[must_use]
     pub const fn max_triggers(&self, wanted: u32) -> u32 {
         let wanted = if wanted < MOST_TRIGGERS { wanted } else { MOST_TRIGGERS };
@@ -200,8 +200,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// A frame of `n` pulses, as an iterator. With a duty of 1 pulses touch, which needs a
     /// [`min_gap`](Self::min_gap) of 0.
     ///
-    /// The exposure alone often shows that `n` pulses are long and far enough apart, and the call is short. Otherwise
-    /// it computes the whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
+    /// Often the exposure alone shows that `n` pulses are long and far enough apart, and the call is fast. Otherwise
+    /// the call computes the whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
     ///
     /// ```
     /// use shutter_curve::{Hz, Pulse, ShutterCurve, expect};
@@ -262,7 +262,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
         Pulses::new(tried!(self.frame(n)), duty)
     }
 
-    /// The ticks of the exposure that a trigger needs, for the next to be `least` ticks later for sure.
+    /// How many ticks of the exposure each trigger needs, so that the next is surely `least` ticks later.
     ///
     /// Openness is at most 1, so a share of the exposure takes at least its part of `exposure`, `E / n`. Each end errs
     /// by 0.52 tick and by two ulp of its fraction, at most 2⁻²³ of `E` (accuracy.md). With the remainder of the
