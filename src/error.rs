@@ -58,10 +58,10 @@ pub enum CurveError {
         /// The control point.
         point: u8,
     },
-    /// A control point of a [`density`](crate::ShutterCurve::density) is outside [0, 1]. If it exceeds 1,
+    /// A control point's value in a [`density`](crate::ShutterCurve::density) is outside [0, 1]. If it exceeds 1,
     /// [scale](crate::CubicBezier::scaled) it down.
     DensityOutOfRange,
-    /// The opening ramp does not end, or the closing ramp does not start, at openness 1.
+    /// This ramp meets another part of non-zero length at an openness below 1.
     NotFullyOpen(Part),
     /// The interval is shorter than 2⁻¹⁶ of the larger of `|open_start|` and `|close_end|`: it contains too few `f32`
     /// times.

@@ -50,7 +50,7 @@
 //! | - the ticks of a frame one by one, as in an interrupt handler | [`trigger_ticks`] |
 //! | - how many triggers keep a minimum gap | [`max_triggers`] |
 //! | - pulses that send equal light through the shutter | [`pulses`], [`pulses_into`], [`pulse_ticks`] |
-//! | frames without a search | [`direct_triggers`] |
+//! | how many triggers surely need no search | [`direct_triggers`] |
 //!
 //! # From a measured shutter
 //!

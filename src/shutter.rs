@@ -28,7 +28,7 @@ use crate::trigger::timed::TimedCurve;
 /// 5. Each part has zero length, or at least 2⁻²⁴ of that larger number.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
-/// Lengths are compared in `f64`, so one that is 2⁻⁵³ of itself too small may pass.
+/// Lengths are compared in `f64`, so one that is too small by 2⁻⁵³ of itself may pass.
 ///
 /// # Octaves
 ///
@@ -295,8 +295,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// time. A larger frame may need none either. Pulses may need searches even in smaller frames.
     ///
     /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
-    /// double it, up to 2²². It is 0, and a frame of any size may need searches, on curves that are too difficult for
-    /// polynomials, and with `OCTAVES = 0` if the middle of the exposure lies on a ramp.
+    /// double it, up to 2²². It is 0 on curves that are too difficult for polynomials, or, with `OCTAVES = 0`, if the
+    /// middle of the exposure lies on a ramp. A frame of any size may then need searches.
     ///
     /// A constant can check the number at compile time:
     ///

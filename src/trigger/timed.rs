@@ -118,8 +118,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// Fills `ticks` with the ticks of a frame: as many triggers as it has places.
     ///
     /// # Errors
-    /// Returns a [`ScheduleError`] if a gap is too small. The slice then holds part of the frame. Returns one, too, if
-    /// there are more than 2²² places.
+    /// Returns a [`ScheduleError`] if there are more than 2²² places, or if a gap is too small. In the latter case, the
+    /// slice holds part of the frame.
     pub const fn ticks_into(&self, ticks: &mut [u32]) -> Result<(), ScheduleError> {
         let frame = tried!(self.frame(saturated(ticks.len())));
         frame.fill(ticks, self.min_gap)
@@ -163,7 +163,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// A number of triggers, up to `wanted`, that keep the gap. If it is below both `wanted` and 2²², one more would
     /// not keep the gap. It is 0 only if `wanted` is 0.
     ///
-    /// On a coarse timer, rounding may make fewer triggers fail, or at least two more pass.
+    /// On a coarse timer, rounding may make a smaller number fail, or a larger one than the next pass.
     ///
     /// Often the exposure alone shows that `wanted` triggers keep the gap, and the call is fast. Otherwise the call
     /// computes frames until it finds the number: 6 frames in the mean, and up to 19, were seen.
@@ -229,8 +229,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// Fills `pulses` with a frame: as many pulses as it has places.
     ///
     /// # Errors
-    /// Returns a [`ScheduleError`] if a pulse or a gap is too short. The slice then holds part of the frame. Returns
-    /// one, too, if the duty is out of range, or if there are more than 2²² places.
+    /// Returns a [`ScheduleError`] if the duty is out of range, if there are more than 2²² places, or if a pulse or a
+    /// gap is too short. In the last case, the slice holds part of the frame.
     pub const fn pulses_into(&self, pulses: &mut [Pulse], duty: f32) -> Result<(), ScheduleError> {
         let frame = tried!(self.pulse_frame(saturated(pulses.len()), duty));
         frame.fill(pulses, self.min_gap, self.min_pulse)
