@@ -307,7 +307,7 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
     assert!(worst.iter().all(|worst| *worst <= 1.0), "{worst:?}");
 }
 
-/// A search rounds its fraction to the nearest multiple of 2⁻⁴⁷: on a box the time is that share of its length.
+/// A search rounds its fraction to the nearest multiple of 2⁻⁴⁶: on a box the time is that share of its length.
 #[test]
 fn a_search_rounds_its_fraction_to_the_grid() {
     let [opening, closing] = [0.0, 1.0].map(|t| CubicBezier::new([(t, 1.0); 4]));
