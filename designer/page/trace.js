@@ -16,7 +16,7 @@ const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
 /** What the button beside a message says, which leads to the control that mends it. */
 const MEND = {
   rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', light: 'Say which way',
-  full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose its channel',
+  full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose its channel', from: 'Choose a window',
 };
 
 /** The file of each row of the table, in this visit: two may have one name. */

@@ -5,8 +5,7 @@
 //! Such a recorder shows `y = x - q`, where the charge `q` grows by `rate y` in a unit of time. So `x` is `y` and the
 //! integral of `y` times the rate.
 
-use super::pulse::noise;
-use super::samples::{Trace, median, range};
+use super::samples::{Trace, median, noise, range};
 use crate::noise::mean;
 
 /// The corners that are tried, in hertz: so many, from the lowest on, by this factor.

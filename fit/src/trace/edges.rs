@@ -1,8 +1,8 @@
 //! The edges of a camera's sync, recorded beside the light: its two levels, which of them is at rest, and which edge
 //! starts which shot.
 
-use super::pulse::{Frame, noise};
-use super::samples::{CONTRAST, Trace, median};
+use super::pulse::Frame;
+use super::samples::{CONTRAST, Trace, median, noise};
 
 /// Between these shares of the way from the low level to the high one the state stays what it was.
 const SWITCH: (f64, f64) = (0.3, 0.7);

@@ -6,7 +6,7 @@ use std::ops::Range;
 use serde::Deserialize;
 
 use super::coupling::Rates;
-use super::samples::{CONTRAST, LARGEST, Trace, median, range, sampling_interval};
+use super::samples::{CONTRAST, LARGEST, Trace, least_step, median, noise, range, sampling_interval};
 use super::told::{Refusal, Warning};
 
 /// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
@@ -188,21 +188,6 @@ fn check(trace: &Trace) -> Result<(), Refusal> {
         && times.iter().chain(values).all(|x| x.abs() <= LARGEST)
         && times.windows(2).all(|pair| pair[0] < pair[1]);
     if is_sound { Ok(()) } else { Err(Refusal::Unsound) }
-}
-
-/// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
-/// the least step of the values makes.
-pub(super) fn noise(values: &[f64]) -> f64 {
-    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    (median(steps) / 0.6745 / 2f64.sqrt()).max(least_step(values) / 12f64.sqrt())
-}
-
-/// The least step from one value to the next; 0 of a gate or a logic level, whose two values round nothing.
-pub fn least_step(values: &[f64]) -> f64 {
-    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| *s > 0.0);
-    let least = steps.reduce(f64::min).unwrap_or(0.0);
-    let (low, high) = range(values);
-    if 1.5 * least < high - low { least } else { 0.0 }
 }
 
 /// What rounding to steps adds to every sample of a level alike: a noise of half a step spreads it, and then nothing is

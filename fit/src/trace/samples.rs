@@ -45,3 +45,18 @@ pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
+
+/// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
+/// the least step of the values makes.
+pub(super) fn noise(values: &[f64]) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    (median(steps) / 0.6745 / 2f64.sqrt()).max(least_step(values) / 12f64.sqrt())
+}
+
+/// The least step from one value to the next; 0 of a gate or a logic level, whose two values round nothing.
+pub fn least_step(values: &[f64]) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| *s > 0.0);
+    let least = steps.reduce(f64::min).unwrap_or(0.0);
+    let (low, high) = range(values);
+    if 1.5 * least < high - low { least } else { 0.0 }
+}

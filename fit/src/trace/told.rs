@@ -121,8 +121,8 @@ pub enum Refusal {
     /// What a capacitor before the recorder takes away is too much to be given back.
     #[error(
         "the recorder passes no steady light (AC, a sound card), in a way that the time constants of two capacitors do \
-         not explain: no result of such a trace is right; take a window around one pulse, with ten times its length of \
-         dark on both sides (--from, --to), another input, or a recorder that is coupled for DC"
+         not explain: no result of such a trace is right; take another input, or a window around one pulse, with ten \
+         times its length of dark on both sides"
     )]
     Coupled,
     /// No delay can be told from the edge of the camera's sync.
@@ -235,8 +235,9 @@ pub enum Warning {
     )]
     SyncLate { few: usize, all: usize, by: f64 },
     #[error(
-        "a sound card passes no steady light: it is coupled by a capacitor, and may change its gain by itself; take a \
-         recorder that is coupled for DC, where the exposure matters"
+        "a sound card passes no steady light, and may change its gain by itself: switch that off, and compare with \
+         another input; where the exposure is in doubt, take a window around one pulse, with ten times its length of \
+         dark on both sides"
     )]
     SoundCard,
     #[error(
@@ -413,6 +414,8 @@ pub enum Remedy<'a> {
     Sync,
     Triggers,
     Picture,
+    /// The first time that counts, and with it the last.
+    From,
 }
 
 impl Remedy<'_> {
@@ -442,6 +445,7 @@ pub trait Tell: Display + Serialize + Sized {
             Remedy::Columns(columns) => columns,
             Remedy::Light => "up or down",
             Remedy::Mains => "50 or 60",
+            Remedy::From => "and --to",
             _ => "",
         };
         let option = format!("--{} {value}", remedy.option());
@@ -464,6 +468,7 @@ impl Tell for Refusal {
             Self::FullTooLow { .. } => M::Full,
             Self::NoDelay { .. } => M::Sync,
             Self::NoScene { crowded: true, .. } => M::Triggers,
+            Self::Coupled => M::From,
             _ => return None,
         })
     }
@@ -480,6 +485,7 @@ impl Tell for Warning {
             Self::ShortHum { is_known: false, .. } => M::Mains,
             Self::NoPlateau => M::Full,
             Self::Misfit { .. } => M::Picture,
+            Self::SoundCard => M::From,
             _ => return None,
         })
     }
