@@ -112,7 +112,7 @@
 //! [`pulses`]: TimedCurve::pulses
 //! [`pulses_into`]: TimedCurve::pulses_into
 
-#![no_std]
+#![cfg_attr(not(test), no_std)]
 // docs.rs says of each item which feature it needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
@@ -166,3 +166,10 @@ pub use trigger::timed::TimedCurve;
 #[doc = include_str!("../docs/accuracy.md")]
 #[cfg(doc)]
 pub mod accuracy {}
+
+// Tests of what is not public; not in the published package, whose tests have no `_measure`.
+#[cfg(all(test, feature = "_measure"))]
+extern crate self as shutter_curve;
+#[cfg(all(test, feature = "_measure"))]
+#[path = "../tests/inside/mod.rs"]
+mod inside;

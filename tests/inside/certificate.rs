@@ -3,6 +3,10 @@
 use crate::exposure::Exposure;
 use crate::fixed::{WORD, fixed_down, power_of_two_f64};
 use crate::fraction::Side;
+use crate::inside::support::aimed::{FAMILIES, aimed};
+use crate::inside::support::curves::{Rng, named, random_hard, random_typical};
+use crate::inside::support::oracle::{Curve, Dd, Exact, ulp_f32};
+use crate::inside::support::times;
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES, candidate};
 use crate::octave::certificate::{ErrorOverLimit, FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, ULP_ERROR, certificate};
@@ -10,10 +14,6 @@ use crate::octave::path::{Path, Stretch, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave, top_at};
 use crate::ramp::bezier::CubicBezier;
-use crate::support::aimed::{FAMILIES, aimed};
-use crate::support::curves::{Rng, named, random_hard, random_typical};
-use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
-use crate::support::times;
 
 /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
 fn chebyshev(x: f64) -> f64 {

@@ -5,14 +5,14 @@ use crate::fixed::{
     ONE, WORD, fixed_down, fixed_towards_0, floor_bits, power_of_two, power_of_two_f64, single, times, times_up,
 };
 use crate::fraction::{Fraction, Side};
+use crate::inside::support::curves::{Rng, named, random_hard, random_typical};
+use crate::inside::support::oracle::{Curve, Dd, Exact, ulp_f32};
 use crate::inverse::Inverse;
 use crate::octave::build::{build, range};
 use crate::octave::{Octave, bound, times_high_by_halves, top_at};
 use crate::ramp::bezier::CubicBezier;
 use crate::rate::Hz;
 use crate::search::{MAX_EVALUATIONS, Series};
-use crate::support::curves::{Rng, named, random_hard, random_typical};
-use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
 use crate::trigger::ticks::TickScale;
 
 /// Numbers of all lengths, and those next to powers of two.

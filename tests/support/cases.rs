@@ -4,8 +4,8 @@
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::support::curves::{instant, line};
-use crate::support::oracle::{Curve, Points};
+use super::curves::{instant, line};
+use super::oracle::{Curve, Points};
 
 #[derive(Clone, Copy)]
 pub struct Case {

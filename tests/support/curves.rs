@@ -3,7 +3,7 @@
 
 use shutter_curve::CubicBezier;
 
-use crate::support::oracle::{Curve, Exact, Points, exp2};
+use super::oracle::{Curve, Exact, Points, exp2};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
