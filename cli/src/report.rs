@@ -113,7 +113,7 @@ fn table(out: &mut String, planned: &Plan) -> fmt::Result {
     let places = decimals(tick, 2).min(decimals(unit.of(planned.length), 7));
     let has_pulses = rows.iter().any(|row| row.on_ticks.is_some());
     let is_dimmed = planned.curve.is_some()
-        && planned.set_up == Some(SetUp::InPath)
+        && planned.scene.flashes.set_up == Some(SetUp::InPath)
         && matches!(planned.lamp, Lamp::Triggered | Lamp::Equal { .. });
     // Columns that a scene need not have.
     let column = |is_there: bool, cell: &dyn Display, width: usize| match is_there {

@@ -10,7 +10,6 @@ use shutter_plan::fault::Fault;
 use shutter_plan::lamp::{Lamp, SetUp};
 use shutter_plan::plan::{MOST_TRIGGERS, Plan};
 use shutter_plan::scene::{Scene, Shutter};
-use shutter_plan::set_up::doses;
 use shutter_plan::shape::Shape;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -138,13 +137,13 @@ impl Question {
 
     /// Its plan, of the trace's own times where it has them.
     fn plan(&self) -> Result<Plan, Fault> {
-        let Some(times) = &self.own.trigger_times else { return Plan::bare(&self.scene) };
+        let Some(times) = &self.own.trigger_times else { return Plan::new(&self.scene) };
         let (open_start, trigger_times) = (self.own.open_start, Some(times.clone()));
         let (open_end, close_start, close_end, shutteropening) = (None, None, None, None);
         let shutter = self.scene.shutter.clone();
         let shutter =
             Shutter { open_start, trigger_times, open_end, close_start, close_end, shutteropening, ..shutter };
-        Plan::bare(&Scene { shutter, ..self.scene.clone() })
+        Plan::new(&Scene { shutter, ..self.scene.clone() })
     }
 
     fn show(&self, view: &mut View) -> Result<(), Fault> {
@@ -186,7 +185,7 @@ impl Question {
         view.early = early;
         view.from_edge = plan.sync.delay.map(|_| plan.sync.ticks);
         view.hz = plan.timer.hz;
-        let doses = plan.set_up.map_or(Vec::new(), |set_up| doses(set_up, &plan));
+        let doses = plan.scene.flashes.set_up.map_or(Vec::new(), |set_up| plan.doses(set_up));
         let is_even = doses.iter().all(|dose| *dose > 0.985);
         view.doses = if is_even { Vec::new() } else { ends(&doses) };
         Ok(())

@@ -4,9 +4,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use shutter_plan::emit::{self, Form};
 use shutter_plan::facts::Facts;
-use shutter_plan::fault::Fault;
+use shutter_plan::fault::{Fault, Key};
 use shutter_plan::plan::{MOST_TRIGGERS, Plan};
-use shutter_plan::scene::{Flashes, Key, Scene};
+use shutter_plan::scene::{Flashes, Scene};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::fits::{Asked, measured};

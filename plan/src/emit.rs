@@ -14,7 +14,6 @@ use serde::Deserialize;
 use crate::facts::{self, Facts};
 use crate::lamp::{Lamp, SetUp};
 use crate::plan::Plan;
-use crate::set_up::doses;
 
 /// A form that a plan can be emitted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -88,10 +87,10 @@ fn is_ready(form: Form, plan: &Plan, curve: bool) -> Result<(), String> {
         return Err("--curve: the scene has trigger times and no curve".into());
     }
     let asked = [
-        (plan.set_up.is_none(), set_ups(plan)),
+        (plan.scene.flashes.set_up.is_none(), set_ups(plan)),
         (!plan.timer.is_given, "timer_hz = ...       # your timer's rate, in Hz".into()),
         (
-            plan.min_gap.is_none(),
+            plan.scene.flashes.min_gap.is_none(),
             "min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing".into(),
         ),
         (
@@ -121,7 +120,7 @@ fn set_ups(plan: &Plan) -> String {
         Lamp::Doses { .. } => format!("{in_path}; duty is for that alone"),
         Lamp::FullyOpen => format!("{in_path}; fully_open is for that alone"),
         Lamp::Triggered | Lamp::Equal { .. } => {
-            let [equal, dimmed] = [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&doses(it, plan)));
+            let [equal, dimmed] = [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&plan.doses(it)));
             format!(
                 "{emulated}: the first, the middle and the last flash give {equal}\n  {in_path}, and dims them to \
                  {dimmed}; all alike\n  {nothing} with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` \
@@ -153,7 +152,7 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
         if of_a.map(|it| it.falls) != of_b.map(|it| it.falls) {
             return Err(format!("sync_falls: {differ} edge"));
         }
-        if a.set_up != b.set_up {
+        if a.scene.flashes.set_up != b.scene.flashes.set_up {
             return Err(format!("set_up: {differ} set-up"));
         }
         if a.lamp.has_pulses() != b.lamp.has_pulses() {
@@ -241,9 +240,4 @@ fn rows<T: ToString>(items: impl Iterator<Item = T>) -> String {
         row += &format!(" {item},");
     }
     if row.is_empty() { text } else { text + &format!("   {row}\n") }
-}
-
-/// Fowler, Noll and Vo's hash (FNV-1a).
-pub fn fnv(bytes: impl Iterator<Item = u8>) -> u32 {
-    bytes.fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }

@@ -6,8 +6,7 @@ use shutter_fit::fact::{Fact, Message};
 use shutter_fit::unit::{Unit, count, plus_minus, short, stops};
 
 use crate::lamp::{FullyOpen, Lamp, SetUp};
-use crate::plan::{Curve, MOST_TRIGGERS, Plan};
-use crate::set_up::doses;
+use crate::plan::{Curve, MOST_TRIGGERS, Plan, digits};
 use crate::sync::Delay;
 
 /// What is known of a plan, and what is doubtful about it.
@@ -34,7 +33,7 @@ impl Facts {
             Some(curve) => of_curve(plan, curve),
             None => of_times(plan),
         };
-        if let Some(it) = &plan.measured {
+        if let Some(it) = &plan.scene.shutter.measured {
             let exposure = plus_minus(it.exposure, it.exposure_error, it.unit.name());
             let found = format!("exposure {exposure}, efficiency {}", it.efficiency);
             facts.push(Fact::words("trace", it.trace.clone()));
@@ -45,7 +44,7 @@ impl Facts {
         facts.extend(delay(plan));
         facts.push(gap(plan));
         facts.extend(pulses(plan).map(|told| Fact::words("pulses", told)));
-        facts.push(Fact::new("set-up", "set_up", plan.set_up.map(SetUp::name), set_up(plan)));
+        facts.push(Fact::new("set-up", "set_up", plan.scene.flashes.set_up.map(SetUp::name), set_up(plan)));
         let keep = match plan.curve.as_ref().map(|curve| curve.most) {
             None => " as measured".into(),
             Some(1) => "; 1 keeps the gap, 2 do not".into(),
@@ -147,14 +146,9 @@ fn half(curve: &ShutterCurve, dark: f32, open: f32) -> f32 {
     }
 }
 
-/// The `f64` that is written with the digits of this `f32`.
-fn digits(x: f32) -> f64 {
-    x.to_string().parse().unwrap_or(x.into())
-}
-
 /// What the exposure is called, and by how many stops it is longer; negative if it is shorter.
 fn nominal(plan: &Plan) -> Vec<Fact> {
-    let Some(nominal) = plan.nominal else { return Vec::new() };
+    let Some(nominal) = plan.scene.shutter.nominal else { return Vec::new() };
     let told = Fact::new("nominal", "nominal_s", nominal, plan.unit.show(nominal));
     let delta = plan.curve.as_ref().map(|curve| (f64::from(curve.shutter.exposure()) / nominal).log2());
     let delta = delta.map(|ev| Fact::new("nominal", "delta_ev", digits(ev as f32), format!("ΔEV {}", stops(ev))));
@@ -174,7 +168,7 @@ fn delay(plan: &Plan) -> Vec<Fact> {
         None => "edge (sync_falls: which?)",
     };
     let told = format!("{} from the sync's {edge} to the start of opening", unit.show(seconds));
-    let known = error.zip(plan.measured.as_ref().and_then(|it| Some(it.unit.seconds(it.trigger_error?))));
+    let known = error.zip(plan.scene.shutter.measured.as_ref().and_then(|it| Some(it.unit.seconds(it.trigger_error?))));
     let known = known.map(|(error, to_any)| {
         let [opening, any] = [error, to_any].map(|error| short(unit.of(error), 2));
         Fact::words("known to", format!("± {opening} {0} to the opening, ± {any} {0} to any trigger", unit.name()))
@@ -196,7 +190,7 @@ fn gap(plan: &Plan) -> Fact {
     let unit = plan.unit;
     let has_pulses = plan.lamp.has_pulses();
     let dark = if has_pulses { " of darkness between pulses" } else { "" };
-    let asked = match plan.min_gap {
+    let asked = match plan.scene.flashes.min_gap {
         Some(gap) => format!("at least {}{dark}", unit.show(gap)),
         None => format!("none asked for{dark}"),
     };
@@ -205,7 +199,7 @@ fn gap(plan: &Plan) -> Fact {
         Some(least) => format!("{asked}; the closest two come {} apart", unit.show(least)),
         None => asked,
     };
-    Fact::new("gap", "min_gap_s", plan.min_gap, told)
+    Fact::new("gap", "min_gap_s", plan.scene.flashes.min_gap, told)
 }
 
 /// The least time between two triggers, or between the end of a pulse and the next.
@@ -229,7 +223,7 @@ fn share(plan: &Plan) -> Option<f64> {
 fn spread(plan: &Plan) -> Option<String> {
     let (spread, share, unit) = (plan.sync.delay?.spread?, share(plan)?, plan.unit);
     let percent = |of: f64| format!("{} %", short(100.0 * spread / of, 2));
-    let gap = plan.min_gap.filter(|gap| *gap > 0.0);
+    let gap = plan.scene.flashes.min_gap.filter(|gap| *gap > 0.0);
     let gap = gap.map_or(String::new(), |gap| format!(" and {} of the gap", percent(gap)));
     let most = MATTERS * share * plan.triggers.len() as f64 / spread;
     let helps = match &plan.curve {
@@ -278,8 +272,8 @@ const FLASHES: &str = "emulated: equal flashes while the camera's own shutter st
 /// How the flashes meet the shutter.
 fn set_up(plan: &Plan) -> String {
     use Lamp::{Doses, Equal, FullyOpen, Triggered};
-    let dimmed = || few(&doses(SetUp::InPath, plan));
-    match (plan.set_up, plan.lamp) {
+    let dimmed = || few(&plan.doses(SetUp::InPath));
+    match (plan.scene.flashes.set_up, plan.lamp) {
         (Some(SetUp::InPath), Doses { .. }) => "in the light's path; a lamp steady while it is on".into(),
         (Some(SetUp::InPath), FullyOpen) => "in the light's path; one dose each, while it is fully open".into(),
         (Some(SetUp::InPath), _) => format!("in the light's path, which dims the flashes to {}", dimmed()),
@@ -299,16 +293,16 @@ fn set_up(plan: &Plan) -> String {
 /// All that may be wrong with a plan that is none the less made.
 fn doubts(plan: &Plan) -> Vec<Message> {
     let doubt = |code, text: String, remedy| Message { code, text, remedy };
-    let traced = plan.measured.iter().flat_map(|it| &it.warnings);
+    let traced = plan.scene.shutter.measured.iter().flat_map(|it| &it.warnings);
     let mut all: Vec<_> = traced.map(|text| doubt("trace", text.clone(), None)).collect();
-    if plan.is_edited {
+    if plan.scene.is_edited {
         let text = "what a fit wrote below [shutter] was changed by hand since; a hand's own delay and edge belong \
                     below [flashes]";
         all.push(doubt("edited", text.into(), None));
     }
     all.extend(exposure_differs(plan).map(|text| doubt("exposure_differs", text, None)));
     all.extend(delay_differs(plan).map(|text| doubt("delay_differs", text, None)));
-    let told = plan.traced_falls.zip(plan.sync.delay.and_then(|it| it.falls));
+    let told = plan.scene.shutter.sync_falls.zip(plan.sync.delay.and_then(|it| it.falls));
     if let Some((told, said)) = told.filter(|(told, said)| told != said) {
         let edge = if said { "falling" } else { "rising" };
         let text = format!(
@@ -348,7 +342,7 @@ fn doubts(plan: &Plan) -> Vec<Message> {
 
 /// Is the curve's exposure another than the one that was measured beside it?
 fn exposure_differs(plan: &Plan) -> Option<String> {
-    let (it, curve) = (plan.measured.as_ref()?, plan.curve.as_ref()?);
+    let (it, curve) = (plan.scene.shutter.measured.as_ref()?, plan.curve.as_ref()?);
     let measured = it.unit.seconds(it.exposure);
     let here = f64::from(curve.shutter.exposure()) * it.peak.unwrap_or(1.0);
     let differs = (here - measured).abs() > ROUNDED * measured.max(here) || !measured.is_finite();
@@ -365,8 +359,8 @@ fn exposure_differs(plan: &Plan) -> Option<String> {
 
 /// Is the delay that counts another than that of the trace?
 fn delay_differs(plan: &Plan) -> Option<String> {
-    let (delay, traced) = (plan.sync.delay?, plan.traced_delay?);
-    let it = plan.measured.as_ref()?;
+    let (delay, traced) = (plan.sync.delay?, plan.scene.shutter.delay?);
+    let it = plan.scene.shutter.measured.as_ref()?;
     let error = it.unit.seconds(it.delay_error.unwrap_or_default());
     let differs = delay.key == "flashes.delay" && (delay.seconds - traced).abs() > 2.0 * error;
     differs.then(|| {
@@ -380,7 +374,7 @@ fn delay_differs(plan: &Plan) -> Option<String> {
 /// its pulses.
 fn unequal(plan: &Plan) -> Option<String> {
     matches!(plan.lamp, Lamp::Doses { .. }).then_some(())?;
-    let least = doses(SetUp::InPath, plan).into_iter().fold(1.0, f64::min);
+    let least = plan.doses(SetUp::InPath).into_iter().fold(1.0, f64::min);
     (least < 0.99).then(|| short(100.0 * (1.0 - least), 2))
 }
 
@@ -395,7 +389,7 @@ pub fn coarse(plan: &Plan) -> Option<f64> {
 /// The doses of equal flashes that a shutter in the light's path dims by more than a hundredth.
 fn dimmed(plan: &Plan) -> Option<String> {
     let is_equal = matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. });
-    let doses = (is_equal && plan.set_up == Some(SetUp::InPath)).then(|| doses(SetUp::InPath, plan))?;
+    let doses = (is_equal && plan.scene.flashes.set_up == Some(SetUp::InPath)).then(|| plan.doses(SetUp::InPath))?;
     doses.iter().any(|dose| *dose < 0.99).then(|| few(&doses))
 }
 

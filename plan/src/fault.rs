@@ -7,11 +7,13 @@ use shutter_curve::{CurveError, ScheduleError};
 use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count, short};
 use thiserror::Error;
-
-use crate::scene::{Key, place};
+use toml::de::{DeTable, DeValue};
 
 /// The digits of an inner control number: all that `f32` keeps.
-pub(crate) const DIGITS: i32 = 9;
+const DIGITS: i32 = 9;
+
+/// A key of a scene with its table, as `flashes.pulse`.
+pub type Key = &'static str;
 
 /// What is wrong with a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +64,18 @@ impl Fault {
         }
         told
     }
+}
+
+/// Where a text has the value of a key.
+fn place(text: &str, key: &str) -> Option<usize> {
+    let mut table = DeTable::parse(text).ok()?.into_inner();
+    let (path, last) = key.rsplit_once('.').unwrap_or(("", key));
+    for part in path.split('.').filter(|part| !part.is_empty()) {
+        let (_, value) = table.into_iter().find(|(key, _)| key.get_ref() == part)?;
+        let DeValue::Table(inner) = value.into_inner() else { return None };
+        table = inner;
+    }
+    Some(table.get(last)?.span().start)
 }
 
 /// So many ticks, told in the scene's unit, and as ticks where the timer's rate is given.

@@ -1,19 +1,19 @@
 //! What a scene asks of its lamp, and the frames that keep it.
 
-use shutter_curve::ShutterCurve;
+use shutter_curve::{Hz, ScheduleError, ShutterCurve};
+use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::Unit;
 
-use crate::fault::{Fault, Pair, Ticks, What};
-use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
-use crate::plan::positive;
-use crate::scene::Scene;
+use crate::fault::{Fault, Key, Pair, Ticks, What};
+use crate::lamp::{Flash, FullyOpen, LAST, Lamp, SetUp};
+use crate::scene::{Flashes, Scene};
 use crate::timer::Timer;
 
-/// The frames of a shutter, of any number of triggers, and what a scene asks of each, in ticks.
+/// The frames of a shutter, and what a scene asks of each, in ticks.
 pub(crate) struct Frames<'a> {
-    pub curve: &'a ShutterCurve,
-    pub timer: Timer,
-    pub unit: Unit,
+    source: Source<'a>,
+    timer: Timer,
+    unit: Unit,
     pub lamp: Lamp,
     /// The ticks until the shutter is closed.
     end: i64,
@@ -21,6 +21,15 @@ pub(crate) struct Frames<'a> {
     dark: u64,
     /// What a pulse has to last.
     lit: u64,
+}
+
+/// What frames come from.
+#[derive(Clone)]
+enum Source<'a> {
+    /// A curve has frames of any number of triggers.
+    Curve(&'a ShutterCurve),
+    /// Measured triggers are the only frame.
+    Times(Vec<Flash>),
 }
 
 /// What is wrong with a frame.
@@ -35,79 +44,55 @@ pub(crate) enum Problem {
 }
 
 impl<'a> Frames<'a> {
-    /// Those of a scene with this curve.
+    /// Those of a scene in seconds, with this curve, or else with its trigger times; what is wrong is told in this
+    /// unit.
     ///
     /// # Errors
     /// Keys that are out of their range or do not go together.
     pub fn new(
         scene: &Scene,
-        curve: &'a ShutterCurve,
+        curve: Option<&'a ShutterCurve>,
         timer: Timer,
-        min_gap: Option<f64>,
         end: f64,
+        unit: Unit,
     ) -> Result<Self, Fault> {
-        let (flashes, unit) = (&scene.flashes, scene.unit());
-        let pulse = positive("flashes.pulse", unit, flashes.pulse)?;
-        let min_pulse = positive("flashes.min_pulse", unit, flashes.min_pulse)?;
-        let fully_open = flashes.fully_open == Some(true);
-        let refused = |key, what: What| Err(Fault::new(key, what));
-        const OPEN: &str = "flashes.fully_open";
-        if fully_open && (pulse.is_some() || flashes.duty.is_some()) {
-            return refused(OPEN, What::FullyOpenPulses);
-        }
-        if fully_open && curve.open_end() == curve.close_start() {
-            return refused(OPEN, What::FullyOpenNever);
-        }
-        if flashes.set_up == Some(SetUp::Emulated) && flashes.duty.is_some() {
-            return refused("flashes.duty", What::DutyEmulated);
-        }
-        if flashes.set_up == Some(SetUp::Emulated) && fully_open {
-            return refused(OPEN, What::FullyOpenEmulated);
-        }
-        let lamp = match (pulse, flashes.duty) {
-            _ if fully_open => Lamp::FullyOpen,
-            (Some(_), Some(_)) => return refused("flashes.duty", What::DutyAndPulse),
-            (Some(pulse), None) => {
-                let ticks = (pulse * f64::from(timer.hz)).round();
-                if ticks == 0.0 {
-                    return refused("flashes.pulse", What::PulseOfNoTick { hz: timer.hz });
-                }
-                // The cast saturates; what is so long is refused later.
-                Lamp::Equal { ticks: ticks as u32 }
-            }
-            (None, Some(duty)) => {
-                let duty = duty as f32;
-                if !(duty > 0.0 && duty <= 1.0) {
-                    return refused("flashes.duty", What::Duty);
-                }
-                Lamp::Doses { duty }
-            }
-            (None, None) => Lamp::Triggered,
+        let flashes = &scene.flashes;
+        let source = match curve {
+            Some(curve) => Source::Curve(curve),
+            None => Source::Times(measured(scene, timer)?),
         };
-        if min_pulse.is_some() && flashes.duty.is_none() {
-            return refused("flashes.min_pulse", What::MinPulse);
-        }
+        let lamp = lamp(flashes, curve, timer)?;
         // A timer fires once a tick; a lamp that shines on needs no gap.
         let least = u64::from(!lamp.has_pulses());
-        let dark = whole_ticks(min_gap.unwrap_or_default(), timer.hz).max(least);
+        let dark = whole_ticks(flashes.min_gap.unwrap_or_default(), timer.hz).max(least);
         let lit = match lamp {
             Lamp::Triggered | Lamp::FullyOpen => 0,
             Lamp::Equal { .. } => 1,
-            Lamp::Doses { .. } => whole_ticks(min_pulse.unwrap_or_default(), timer.hz).max(1),
+            Lamp::Doses { .. } => whole_ticks(flashes.min_pulse.unwrap_or_default(), timer.hz).max(1),
         };
-        Ok(Self { curve, timer, unit, lamp, end: end as i64, dark, lit })
+        Ok(Self { source, timer, unit, lamp, end: end as i64, dark, lit })
     }
 
     /// Those whose flashes come while the shutter is fully open, if it ever is.
     pub fn fully_open(&self) -> Option<Self> {
-        let is_open = self.curve.open_end() < self.curve.close_start();
-        is_open.then(|| Self { lamp: Lamp::FullyOpen, dark: self.dark.max(1), lit: 0, ..*self })
+        let Source::Curve(curve) = self.source else { return None };
+        let is_open = curve.open_end() < curve.close_start();
+        let (source, dark) = (self.source.clone(), self.dark.max(1));
+        is_open.then_some(Self { source, lamp: Lamp::FullyOpen, dark, lit: 0, ..*self })
+    }
+
+    /// The frame of `n` triggers.
+    fn frame(&self, lamp: Lamp, n: u32) -> Vec<Flash> {
+        match &self.source {
+            // The rate is known to be good.
+            Source::Curve(curve) => lamp.frame(curve, n, self.timer.hz).unwrap_or_default(),
+            Source::Times(frame) => frame.clone(),
+        }
     }
 
     /// The frame of `n` triggers, if it keeps what is asked for.
     pub fn checked(&self, n: u32) -> Result<Vec<Flash>, Problem> {
-        // The rate is known to be good.
-        let frame = self.lamp.frame(self.curve, n, self.timer.hz).unwrap_or_default();
+        let frame = self.frame(self.lamp, n);
         let less = |ticks: i64, least: u64| i128::from(ticks) < i128::from(least);
         let gap = |pair: &[Flash]| pair[1].on - pair[0].off;
         if let Some(i) = frame.windows(2).position(|pair| less(gap(pair), self.dark)) {
@@ -117,8 +102,8 @@ impl<'a> Frames<'a> {
         if let Some(i) = frame.iter().position(|flash| less(length(flash), self.lit)) {
             return Err(Problem::Short(i, length(&frame[i])));
         }
-        let ends = match self.lamp {
-            Lamp::FullyOpen => FullyOpen::new(self.curve).ticks(self.timer.hz),
+        let ends = match (&self.source, self.lamp) {
+            (Source::Curve(curve), Lamp::FullyOpen) => FullyOpen::new(curve).ticks(self.timer.hz),
             _ => (0, self.end),
         };
         if frame.iter().any(|flash| flash.on < ends.0 || flash.off > ends.1) {
@@ -129,13 +114,14 @@ impl<'a> Frames<'a> {
 
     /// So many triggers keep what is asked for, and one more does not, where `keep` do and `fail` do not.
     pub fn most(&self, mut keep: u32, mut fail: u32) -> u32 {
+        let Source::Curve(curve) = self.source else { return keep };
         // Where the openness is 1, a share of the exposure takes its own length; the answer is near what that leaves
         // room for.
         let lit = match self.lamp {
             Lamp::Equal { ticks } => ticks.into(),
             _ => self.lit,
         };
-        let room = f64::from(self.curve.exposure()) * f64::from(self.timer.hz);
+        let room = f64::from(curve.exposure()) * f64::from(self.timer.hz);
         let mut next = (room / self.dark.saturating_add(lit).max(1) as f64) as u32;
         // Away from there in growing steps, until it lies between two of them.
         let (mut step, mut is_between) = (1, [false; 2]);
@@ -156,7 +142,7 @@ impl<'a> Frames<'a> {
 
     /// The longest equal pulse that `n` triggers leave room for, in ticks.
     fn longest(&self, n: u32) -> i64 {
-        let ticks = Lamp::Triggered.frame(self.curve, n, self.timer.hz).unwrap_or_default();
+        let ticks = self.frame(Lamp::Triggered, n);
         let ticks: Vec<_> = ticks.iter().map(|flash| i64::from(flash.tick)).collect();
         let dark = i64::try_from(self.dark).unwrap_or(i64::MAX);
         let apart = ticks.windows(2).map(|pair| (pair[1] - pair[0]).saturating_sub(dark));
@@ -173,6 +159,9 @@ impl<'a> Frames<'a> {
         let [dark, lit] = [self.dark, self.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
         let pair = |first, gap| Pair { first, gap: ticks(gap), least: dark };
         let what = match (self.lamp, problem) {
+            (_, Problem::Close(i, gap)) if matches!(self.source, Source::Times(_)) => {
+                return Fault::new(TIMES, What::TimesClose(pair(i, gap)));
+            }
             (Lamp::Equal { ticks: length }, problem) => {
                 let pair = match problem {
                     Problem::Close(i, gap) => Some(pair(i, gap)),
@@ -189,6 +178,70 @@ impl<'a> Frames<'a> {
             _ => What::Unfit { most },
         };
         Fault::new("flashes.triggers", what)
+    }
+}
+
+const TIMES: Key = "shutter.trigger_times";
+
+/// Measured times in ticks, known to be in order.
+fn measured(scene: &Scene, timer: Timer) -> Result<Vec<Flash>, Fault> {
+    let times = scene.shutter.trigger_times.as_deref().unwrap_or_default();
+    let start = scene.shutter.open_start.unwrap_or_default();
+    let refused = |what| Err(Fault::new(TIMES, what));
+    if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
+        return refused(What::TimesCount(times.len()));
+    }
+    let ticks = |time: f64| ((time - start) * f64::from(timer.hz)).round();
+    if let Some(i) = times.iter().position(|time| *time < start) {
+        return refused(What::TimesEarly { i });
+    }
+    if let Some(i) = times.iter().position(|time| ticks(*time) > LAST) {
+        return refused(What::TimesLate { i });
+    }
+    if let Some(i) = times.windows(2).position(|pair| pair[1] < pair[0]) {
+        return refused(What::TimesOutOfOrder { i });
+    }
+    let flash = |time: &f64| Flash { tick: ticks(*time) as u32, on: ticks(*time) as i64, off: ticks(*time) as i64 };
+    Ok(times.iter().map(flash).collect())
+}
+
+/// What the lamp is asked for, known to go with the set-up and the curve.
+fn lamp(flashes: &Flashes, curve: Option<&ShutterCurve>, timer: Timer) -> Result<Lamp, Fault> {
+    let fully_open = flashes.fully_open == Some(true);
+    let is_emulated = flashes.set_up == Some(SetUp::Emulated);
+    let refused = |key, what: What| Err(Fault::new(key, what));
+    const OPEN: &str = "flashes.fully_open";
+    if let Some(curve) = curve {
+        Lamp::Triggered.frame(curve, 0, timer.hz).map_err(|error| Fault::new("flashes.timer_hz", rate(error)))?;
+    }
+    match (flashes.pulse, flashes.duty) {
+        (Some(_), _) | (_, Some(_)) if fully_open => refused(OPEN, What::FullyOpenPulses),
+        _ if fully_open && curve.is_some_and(|it| it.open_end() == it.close_start()) => {
+            refused(OPEN, What::FullyOpenNever)
+        }
+        (_, Some(_)) if is_emulated => refused("flashes.duty", What::DutyEmulated),
+        (Some(_), Some(_)) => refused("flashes.duty", What::DutyAndPulse),
+        (_, None) if flashes.min_pulse.is_some() => refused("flashes.min_pulse", What::MinPulse),
+        (None, None) if fully_open && is_emulated => refused(OPEN, What::FullyOpenEmulated),
+        (None, None) if fully_open => Ok(Lamp::FullyOpen),
+        (None, None) => Ok(Lamp::Triggered),
+        (Some(pulse), None) => match (pulse * f64::from(timer.hz)).round() {
+            0.0 => refused("flashes.pulse", What::PulseOfNoTick { hz: timer.hz }),
+            // The cast saturates; what is so long is refused later.
+            ticks => Ok(Lamp::Equal { ticks: ticks as u32 }),
+        },
+        (None, Some(duty)) => match duty as f32 {
+            duty if duty > 0.0 && duty <= 1.0 => Ok(Lamp::Doses { duty }),
+            _ => refused("flashes.duty", What::Duty),
+        },
+    }
+}
+
+/// What is wrong with a timer's rate, in Hz, as all curves are in seconds here.
+fn rate(error: ScheduleError) -> What {
+    match error {
+        ScheduleError::RateTooHigh { max: Hz(most @ 1..) } => What::RateTooHigh { most },
+        _ => What::Schedule(error),
     }
 }
 

@@ -4,6 +4,9 @@
 use serde::{Deserialize, Serialize};
 use shutter_curve::{Hz, ScheduleError, ShutterCurve};
 
+/// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
+pub(crate) const LAST: f64 = (1u32 << 31) as f64;
+
 /// How the flashes meet the shutter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]

@@ -7,7 +7,7 @@ use shutter_fit::unit::Unit;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::fault::{Fault, What};
+use crate::fault::{Fault, Key, What};
 use crate::lamp::SetUp;
 
 /// What stands in a scene, in TOML or JSON.
@@ -91,9 +91,6 @@ pub struct Flashes {
     pub sync_falls: Option<bool>,
 }
 
-/// A key of a scene with its table, as `flashes.pulse`.
-pub type Key = &'static str;
-
 impl Scene {
     /// The scene that `text` describes.
     ///
@@ -108,6 +105,48 @@ impl Scene {
     /// The unit of the flashes' times.
     pub fn unit(&self) -> Unit {
         self.flashes.unit.or(self.shutter.unit).unwrap_or(Unit::Second)
+    }
+
+    /// The same with its times in seconds.
+    ///
+    /// # Errors
+    /// Times that are not finite, or out of their ranges.
+    pub(crate) fn in_seconds(&self) -> Result<Self, Fault> {
+        type Range = fn(f64) -> Option<What>;
+        let mut scene = self.clone();
+        let Self { shutter, flashes, .. } = &mut scene;
+        let [ours, theirs] = [self.shutter.unit(), self.unit()];
+        let any = |_| None;
+        let positive = |x| (x <= 0.0).then_some(What::Positive);
+        let not_negative = |x| (x < 0.0).then_some(What::NotNegative);
+        let spread = |x| (x < 0.0).then_some(What::Spread);
+        let times: [(Key, Unit, &mut Option<f64>, Range); 14] = [
+            ("shutter.open_start", ours, &mut shutter.open_start, any),
+            ("shutter.open_end", ours, &mut shutter.open_end, any),
+            ("shutter.close_start", ours, &mut shutter.close_start, any),
+            ("shutter.close_end", ours, &mut shutter.close_end, any),
+            ("shutter.delay", ours, &mut shutter.delay, any),
+            ("shutter.delay_spread", ours, &mut shutter.delay_spread, spread),
+            ("shutter.sync_settles", ours, &mut shutter.sync_settles, not_negative),
+            ("shutter.nominal", ours, &mut shutter.nominal, positive),
+            ("flashes.min_gap", theirs, &mut flashes.min_gap, not_negative),
+            ("flashes.pulse", theirs, &mut flashes.pulse, positive),
+            ("flashes.min_pulse", theirs, &mut flashes.min_pulse, positive),
+            ("flashes.lamp_lag", theirs, &mut flashes.lamp_lag, not_negative),
+            ("flashes.delay", theirs, &mut flashes.delay, any),
+            ("flashes.delay_spread", theirs, &mut flashes.delay_spread, spread),
+        ];
+        let several =
+            shutter.trigger_times.iter_mut().flatten().map(|it| ("shutter.trigger_times", ours, it, any as _));
+        let single = times.into_iter().filter_map(|(key, unit, time, wrong)| Some((key, unit, time.as_mut()?, wrong)));
+        for (key, unit, time, wrong) in single.chain(several) {
+            *time = unit.seconds(*time) + 0.0;
+            if let Some(what) = if time.is_finite() { wrong(*time) } else { Some(What::Finite) } {
+                return Err(Fault::new(key, what));
+            }
+        }
+        (shutter.unit, flashes.unit) = (None, None);
+        Ok(scene)
     }
 }
 
@@ -131,11 +170,16 @@ impl Shutter {
 
 const CHECKSUM: &str = "checksum = ";
 
-/// Fowler, Noll and Vo's hash (FNV-1a) of the lines, whatever ends them, but for that of the checksum itself.
+/// The hash of the lines, whatever ends them, but for that of the checksum itself.
 fn checksum(lines: &str) -> String {
     let lines = lines.lines().filter(|line| !line.starts_with(CHECKSUM));
     let bytes = lines.flat_map(|line| line.bytes().chain([b'\n']));
-    format!("{:08x}", crate::emit::fnv(bytes))
+    format!("{:08x}", fnv(bytes))
+}
+
+/// Fowler, Noll and Vo's hash (FNV-1a).
+pub fn fnv(bytes: impl Iterator<Item = u8>) -> u32 {
+    bytes.fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 
 /// Where a text has its shutter.
@@ -173,18 +217,6 @@ fn end(value: &Spanned<DeValue>) -> Option<usize> {
         DeValue::Table(table) => table.values().filter_map(end).max(),
         _ => Some(value.span().end),
     }
-}
-
-/// Where a text has the value of a key.
-pub fn place(text: &str, key: &str) -> Option<usize> {
-    let mut table = DeTable::parse(text).ok()?.into_inner();
-    let (path, last) = key.rsplit_once('.').unwrap_or(("", key));
-    for part in path.split('.').filter(|part| !part.is_empty()) {
-        let (_, value) = table.into_iter().find(|(key, _)| key.get_ref() == part)?;
-        let DeValue::Table(inner) = value.into_inner() else { return None };
-        table = inner;
-    }
-    Some(table.get(last)?.span().start)
 }
 
 /// What is wrong with a text, in words for those who do not know what a float is.

@@ -1,10 +1,9 @@
 //! The numbers that a shutter's curve is made of, and where they are wrong.
 
 use shutter_curve::{CubicBezier, CurveError, Part, ShutterCurve};
-use shutter_fit::unit::{rounded, short};
 
-use crate::fault::{DIGITS, Fault, What};
-use crate::scene::{Key, Scene, Shutter};
+use crate::fault::{Fault, Key, What};
+use crate::scene::Shutter;
 
 /// A curve as a scene has it: its times in seconds, and its inner control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,49 +117,9 @@ impl Shape {
             E::NotFinite(part) | E::TimesCross(part) => ((ramp(part), ramp(part) + 4), error.into()),
             _ => ((0, 8), error.into()),
         };
-        Fault { inner: Some(inner), ..Fault::new(INNER, what) }
+        let notes = vec!["The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into()];
+        Fault { inner: Some(inner), notes, ..Fault::new(INNER, what) }
     }
-
-    /// Another convention by which the inner control points fit, if there is one: its name, and the same points as the
-    /// crate takes them.
-    ///
-    /// Times go first, as they fit only where the control points lie on their own ramps; small fractions of each ramp
-    /// fit easily.
-    fn misread(&self, shutter: &Shutter, inner: &[f64]) -> Option<(String, [String; 8])> {
-        let [open_start, open_end, close_start, close_end] = given(shutter).map(Option::unwrap_or_default);
-        let fraction = |time: f64| (time - open_start) / (close_end - open_start);
-        let of_ramp = |ramp: usize, x: f64| match ramp {
-            0 => open_start + x * (open_end - open_start),
-            _ => close_start + x * (close_end - close_start),
-        };
-        let as_times = |_, x| fraction(x);
-        let as_ramps = |ramp, x| fraction(of_ramp(ramp, x));
-        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] =
-            [(format!("times in {}", shutter.unit().name()), &as_times), ("fractions of each ramp".into(), &as_ramps)];
-        conventions.into_iter().find_map(|(name, convert)| {
-            let inner: [f64; 8] = std::array::from_fn(|i| {
-                let x = inner[i];
-                rounded(if i % 2 == 0 { convert(i / 4, x) } else { x }, DIGITS)
-            });
-            // What is written is what has to fit.
-            let shape = Self { inner: Some(inner.map(|x| x as f32)), ..*self };
-            shape.curve().is_ok().then(|| (name, inner.map(|x| short(x, DIGITS))))
-        })
-    }
-}
-
-/// What is wrong with a scene, with what may help where it is its inner control points.
-pub(crate) fn noted(scene: &Scene, mut fault: Fault) -> Fault {
-    let is_curve = matches!(*fault.what, What::Curve(_) | What::Inner { .. }) && fault.inner.is_some();
-    let Some(numbers) = scene.shutter.shutteropening.as_ref().filter(|_| is_curve) else { return fault };
-    fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
-    let is_time = matches!(*fault.what, What::Inner { error: CurveError::FractionOutsideRamp { .. }, .. });
-    let shape = Shape::new(&scene.shutter).ok().filter(|_| is_time);
-    if let Some((convention, inner)) = shape.and_then(|it| it.misread(&scene.shutter, numbers)) {
-        fault.notes.push(format!("As {convention} they would fit; that is"));
-        fault.notes.push(format!("shutteropening = [{}]", inner.join(", ")));
-    }
-    fault
 }
 
 fn given(shutter: &Shutter) -> [Option<f64>; 4] {

@@ -1,7 +1,8 @@
 //! From the edge of a camera's sync to the start of opening, and from a trigger to the lamp's light.
 
-use crate::fault::{Fault, What};
-use crate::scene::{Key, Scene};
+use crate::fault::{Fault, Key, What};
+use crate::lamp::LAST;
+use crate::scene::Scene;
 
 /// From where a firmware counts. Without a delay, ticks count from the start of opening, which cannot be seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,37 +32,26 @@ pub struct Delay {
     pub key: Key,
 }
 
-/// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
-pub(crate) const LAST: f64 = (1u32 << 31) as f64;
-
 impl Delay {
-    /// The one that a scene has: a hand's own, with its spread and edge, or the trace's.
-    pub(crate) fn new(scene: &Scene) -> Result<Option<Self>, Fault> {
-        let (shutter, flashes) = (&scene.shutter, &scene.flashes);
-        let is_own = flashes.delay.is_some();
+    /// The one that a scene in seconds has: a hand's own, with its spread and edge, or the trace's.
+    pub(crate) fn new(Scene { shutter, flashes, .. }: &Scene) -> Result<Option<Self>, Fault> {
         // What a trace tells of its own delay tells nothing of another.
-        let of = |own: Option<f64>, traced: Option<f64>, keys: [Key; 2]| match own {
-            Some(x) => Some((x, scene.unit(), keys[0])),
-            None => traced.filter(|_| !is_own).map(|x| (x, shutter.unit(), keys[1])),
+        let traced = Some(shutter).filter(|_| flashes.delay.is_none());
+        let spread = flashes.delay_spread.or(traced.and_then(|it| it.delay_spread));
+        let falls = flashes.sync_falls.or(traced.and_then(|it| it.sync_falls));
+        let key = |is_own: bool, keys: [Key; 2]| keys[usize::from(!is_own)];
+        let Some(seconds) = flashes.delay.or(shutter.delay) else {
+            let spreads = key(flashes.delay_spread.is_some(), ["flashes.delay_spread", "shutter.delay_spread"]);
+            let edges = key(flashes.sync_falls.is_some(), ["flashes.sync_falls", "shutter.sync_falls"]);
+            return match (spread, falls) {
+                (Some(_), _) => Err(Fault::new(spreads, What::Spread)),
+                (None, Some(_)) => Err(Fault::new(edges, What::Falls)),
+                (None, None) => Ok(None),
+            };
         };
-        let seconds = |(x, unit, key): (f64, shutter_fit::unit::Unit, Key)| match x.is_finite() {
-            true => Ok(unit.seconds(x) + 0.0),
-            false => Err(Fault::new(key, What::Finite)),
-        };
-        let delay = of(flashes.delay, shutter.delay, ["flashes.delay", "shutter.delay"]);
-        let spread = of(flashes.delay_spread, shutter.delay_spread, ["flashes.delay_spread", "shutter.delay_spread"]);
-        let deviation = spread.map(seconds).transpose()?;
-        if let Some((.., key)) = spread.filter(|_| delay.is_none() || deviation < Some(0.0)) {
-            return Err(Fault::new(key, What::Spread));
-        }
-        let falls = flashes.sync_falls.or(shutter.sync_falls.filter(|_| !is_own));
-        let Some(delay @ (.., key)) = delay else {
-            let key = if flashes.sync_falls.is_some() { "flashes.sync_falls" } else { "shutter.sync_falls" };
-            return if falls.is_some() { Err(Fault::new(key, What::Falls)) } else { Ok(None) };
-        };
-        let error = shutter.measured.as_ref().filter(|_| !is_own).and_then(|it| Some(it.unit.seconds(it.delay_error?)));
-        let seconds = seconds(delay)?;
-        Ok(Some(Self { seconds, error, spread: deviation, falls, key }))
+        let error = traced.and_then(|it| it.measured.as_ref()).and_then(|it| Some(it.unit.seconds(it.delay_error?)));
+        let key = key(traced.is_none(), ["flashes.delay", "shutter.delay"]);
+        Ok(Some(Self { seconds, error, spread, falls, key }))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The first line of a file that the program wrote: a checksum of the lines below, which tells whether anyone has
 //! changed them.
 
-use shutter_plan::emit::fnv;
+use shutter_plan::scene::fnv;
 
 /// How a text has a comment on a line of its own: what begins it, and what ends it.
 pub type Comment = [&'static str; 2];

@@ -4,8 +4,9 @@ use shutter_fit::unit::{Unit, short};
 
 use super::fit::trigger_count;
 use super::quantity::{time, whole_rate};
+use shutter_plan::fault::Key;
 use shutter_plan::lamp::SetUp;
-use shutter_plan::scene::{Key, Scene};
+use shutter_plan::scene::Scene;
 
 /// The settings of a frame. They count in place of the scene's.
 #[derive(clap::Args, Default)]

@@ -10,8 +10,8 @@ use shutter_curve::ShutterCurve;
 use shutter_fit::unit::short;
 
 use super::drawing::{below, draw_curve, graph, lit, steps, time_axis, write_heading};
+use shutter_plan::lamp::Lamp;
 use shutter_plan::plan::Plan;
-use shutter_plan::set_up::{Row, SetUps};
 
 const SIZE: (i32, i32) = (1000, 760);
 const HEADING: i32 = 70;
@@ -19,49 +19,66 @@ const TITLE: i32 = 34;
 const LEFT: i32 = 650;
 /// With more pulses than this, their doses would not be legible below their bars.
 const MOST_LABELS: usize = 12;
+/// How much of each share the lamp is on, where the scene does not say.
+const DUTY: f32 = 0.5;
 
 /// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays
 /// open, the same with the shutter in the light's path, and pulses of equal doses there.
 pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let curve = &plan.curve.as_ref().ok_or("the set-ups are told apart by a curve, and the scene has none")?.shutter;
-    let (n, SetUps { length, rows }) = (plan.triggers.len(), SetUps::new(plan, curve));
+    let n = plan.triggers.len();
+    let duty = match plan.lamp {
+        Lamp::Doses { duty } => duty,
+        _ => DUTY,
+    };
+    // As long as a pulse of the same dose where the shutter is fully open, so that both set-ups get the same light.
+    let length = duty * curve.exposure() / n as f32;
+    let around = |t: f32| (t - 0.5 * length, t + 0.5 * length);
+    let equal: Vec<_> = plan.triggers.iter().map(|trigger| around(trigger.time as f32)).collect();
+    let time = |i: usize, part: f32| curve.inverse_cdf((i as f32 + 0.5 + part * duty) / n as f32);
+    let even = (0..n).map(|i| (time(i, -0.5), time(i, 0.5))).collect();
+    let rows = [
+        ("The curve is emulated: the camera stays open, equal pulses come at the triggers", false, &equal),
+        ("The shutter is in the light's path: it dims the same pulses a second time", true, &equal),
+        ("The shutter is in the light's path: these pulses get equal doses through it", true, &even),
+    ];
     let title = format!("The doses of {n} pulses with the shutter {name}, emulated and in the light's path");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let facts = "outlined: the lamp is on; filled: its light that arrives; dashed: the curve that is meant";
         write_heading(&heading, SIZE.0, &format!("{name}: the light of {n} pulses in the two set-ups"), facts)?;
-        for (area, row) in rest.split_evenly((rows.len(), 1)).iter().zip(&rows) {
-            draw_row(area, plan, curve, row, length)?;
+        for (area, row) in rest.split_evenly((rows.len(), 1)).iter().zip(rows) {
+            let (title, rest) = area.split_vertically(TITLE * SCALE);
+            let label = chart::text(15 * SCALE, HPos::Left, VPos::Center);
+            title.draw_text(row.0, &label, (24 * SCALE, 20 * SCALE))?;
+            let (left, right) = rest.split_horizontally(LEFT * SCALE);
+            let (is_shuttered, pulses) = (row.1, row.2);
+            draw_light(&left, plan, curve, is_shuttered, pulses)?;
+            let dose = |&(on, off): &(f32, f32)| match is_shuttered {
+                true => (curve.cdf(off) - curve.cdf(on)) * curve.exposure() / length,
+                false => (off - on) / length,
+            };
+            draw_doses(&right, &pulses.iter().map(|pulse| dose(pulse).into()).collect::<Vec<_>>())?;
         }
         Ok(())
     })
 }
 
-fn draw_row(area: &Area, plan: &Plan, curve: &ShutterCurve, row: &Row, length: f32) -> Drawn {
-    let (title, rest) = area.split_vertically(TITLE * SCALE);
-    let label = chart::text(15 * SCALE, HPos::Left, VPos::Center);
-    title.draw_text(row.title, &label, (24 * SCALE, 20 * SCALE))?;
-    let (left, right) = rest.split_horizontally(LEFT * SCALE);
-    draw_light(&left, plan, curve, row)?;
-    let doses: Vec<_> = row.pulses.iter().map(|&pulse| f64::from(row.dose(curve, length, pulse))).collect();
-    draw_doses(&right, &doses)
-}
-
 /// The lamp in outlines, and what of its light comes through.
-fn draw_light(area: &Area, plan: &Plan, curve: &ShutterCurve, row: &Row) -> Drawn {
+fn draw_light(area: &Area, plan: &Plan, curve: &ShutterCurve, is_shuttered: bool, pulses: &[(f32, f32)]) -> Drawn {
     let (unit, zero, name) = (plan.unit, plan.origin(), time_axis(plan));
     let time = |t: f32| unit.of(f64::from(t) - zero);
     let mut graph = graph(area, plan, "openness", Some(&name), 0.0..1.08)?;
     let at = |t: f32| {
-        let openness = if row.is_shuttered { curve.openness(t) } else { 1.0 };
+        let openness = if is_shuttered { curve.openness(t) } else { 1.0 };
         (time(t), f64::from(openness))
     };
-    graph.draw_series(row.pulses.iter().map(|&(on, off)| Polygon::new(below(on, off, 32, at), lit())))?;
-    graph.draw_series(row.pulses.iter().map(|&(on, off)| {
+    graph.draw_series(pulses.iter().map(|&(on, off)| Polygon::new(below(on, off, 32, at), lit())))?;
+    graph.draw_series(pulses.iter().map(|&(on, off)| {
         let (on, off) = (time(on), time(off));
         PathElement::new([(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], pen(VERMILION, 1.0))
     }))?;
-    if row.is_shuttered {
+    if is_shuttered {
         draw_curve(&mut graph, plan, curve, |t| curve.openness(t))
     } else {
         // The curve as it is meant, and the camera as it is.

@@ -520,7 +520,7 @@ fn csv_and_json_are_right(name: &str, planned: &Plan) {
     assert_eq!(json.direct_triggers, curve_of(plan).direct_triggers());
     let delay = plan.sync.delay.map(|delay| (delay.seconds, plan.sync.ticks));
     assert_eq!(json.delay_s.zip(json.delay_ticks), delay);
-    assert_eq!(json.delta_ev.is_some(), plan.nominal.is_some());
+    assert_eq!(json.delta_ev.is_some(), plan.scene.shutter.nominal.is_some());
 }
 
 #[test]

@@ -168,6 +168,6 @@ fn what_the_fit_doubted_is_in_every_form() {
 #[test]
 fn a_set_up_has_the_name_that_a_scene_gives_it() {
     for set_up in [SetUp::Emulated, SetUp::InPath] {
-        assert_eq!(planned(LEAF, &format!("set_up = '{}'", set_up.name())).set_up, Some(set_up));
+        assert_eq!(planned(LEAF, &format!("set_up = '{}'", set_up.name())).scene.flashes.set_up, Some(set_up));
     }
 }

@@ -1,6 +1,7 @@
 //! A plan as a header of C99 and C++11.
 
-use super::{HOLD_OFF, MADE_BY, Module, Ticks, fnv, name, rows};
+use super::{HOLD_OFF, MADE_BY, Module, Ticks, name, rows};
+use crate::scene::fnv;
 
 /// The header of a plan, its names those of the scene.
 pub fn header(module: &Module) -> String {
