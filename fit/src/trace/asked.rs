@@ -48,3 +48,10 @@ pub struct Options {
     /// The column of the camera's sync, which holds no light.
     pub sync: Option<Column>,
 }
+
+impl Options {
+    /// Is a time among those that count?
+    pub(super) fn counts(&self, time: f64) -> bool {
+        self.from.is_none_or(|from| time >= from) && self.to.is_none_or(|to| time <= to)
+    }
+}

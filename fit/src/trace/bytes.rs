@@ -3,19 +3,13 @@
 use super::told::Refusal;
 
 /// The forms that begin with a mark of their own, and what to do about each.
-const FORMS: [(&[u8], &str); 21] = [
+const FORMS: [(&[u8], &str); 14] = [
     (b"\x1f\x8b", "it is gzip: unpack it first"),
     (b"PK\x03\x04", "it is a zip, or a workbook (xlsx, ods, numbers): unpack it, or save the sheet as CSV"),
     (b"\xd0\xcf\x11\xe0", "it is an old workbook (xls): save the sheet as CSV"),
-    (b"BZh", "it is bzip2: unpack it first"),
-    (b"\xfd7zXZ", "it is xz: unpack it first"),
-    (b"7z\xbc\xaf", "it is 7z: unpack it first"),
-    (b"\x28\xb5\x2f\xfd", "it is zstd: unpack it first"),
     (b"%PDF", "it is a PDF"),
     (b"\x89PNG", "it is a picture (PNG)"),
     (b"\xff\xd8\xff", "it is a picture (JPEG)"),
-    (b"GIF8", "it is a picture (GIF)"),
-    (b"BM", "it is a picture (BMP)"),
     (b"\x89HDF", "it is HDF5, or MATLAB 7.3"),
     (b"MATLAB", "it is a MATLAB file"),
     (b"TDSm", "it is LabVIEW's TDMS"),
@@ -24,7 +18,6 @@ const FORMS: [(&[u8], &str); 21] = [
     (b"ID3", "it is MP3, which changes the curve: record WAV"),
     (b"FORM", "it is AIFF: save it as WAV"),
     (b":WFM#", "it is Tektronix's WFM: save it as CSV"),
-    (b"SQLite", "it is a database"),
 ];
 
 /// The text of a file's bytes: UTF-8, UTF-16 with its mark, or a single-byte encoding whose letters do not

@@ -2,6 +2,25 @@
 
 use std::iter::once;
 
+/// What a field holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell {
+    Number(f64),
+    /// A time of day, in seconds.
+    Clock(f64),
+    Word,
+    Empty,
+}
+
+impl Cell {
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Self::Number(x) | Self::Clock(x) => Some(x),
+            _ => None,
+        }
+    }
+}
+
 /// What parts a line's fields, and is the decimal mark a comma?
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Form {
@@ -12,8 +31,7 @@ pub struct Form {
 impl Form {
     /// All, the usual ones first.
     pub fn all() -> impl Iterator<Item = Self> {
-        let both = |delimiter| [false, true].map(|comma| Self { delimiter, comma });
-        [',', ';', '\t', ' '].into_iter().flat_map(both)
+        [',', ';', '\t', ' '].into_iter().flat_map(|delimiter| [false, true].map(|comma| Self { delimiter, comma }))
     }
 
     /// The fields of a line, without blanks and quotes around them. A quote that is never closed must not swallow the
@@ -46,21 +64,26 @@ impl Form {
         }
     }
 
-    /// A number, or a time of day in seconds.
-    pub fn cell(self, field: &str) -> Option<f64> {
-        self.number(field).or_else(|| time_of_day(field))
+    pub fn cell(self, field: &str) -> Cell {
+        match self.number(field) {
+            Some(x) => Cell::Number(x),
+            None if field.is_empty() => Cell::Empty,
+            None => time_of_day(field).map_or(Cell::Word, Cell::Clock),
+        }
     }
 
     /// The share of the fields in these lines that are numbers or times of day. Few instruments begin a number with
     /// `05`, so that is the half of a decimal.
-    pub fn fits(self, lines: &[&str]) -> f64 {
-        let is_half = |field: &str| {
-            field.starts_with('0') && field[1..].starts_with(|c: char| c.is_ascii_digit()) && !field.contains(':')
-        };
+    pub fn fits<'a>(self, lines: impl Iterator<Item = &'a str>) -> f64 {
+        let is_half = |field: &str| field.len() > 1 && field.starts_with('0') && field.as_bytes()[1].is_ascii_digit();
         let (mut all, mut numbers) = (0.0, 0.0);
-        for field in lines.iter().flat_map(|line| self.split(line)).filter(|field| !field.is_empty()) {
+        for field in lines.flat_map(|line| self.split(line)).filter(|field| !field.is_empty()) {
             all += 1.0;
-            numbers += f64::from(u8::from(self.cell(field).is_some() && !is_half(field)));
+            numbers += match self.cell(field) {
+                Cell::Clock(_) => 1.0,
+                Cell::Number(_) if !is_half(field) => 1.0,
+                _ => 0.0,
+            };
         }
         numbers / f64::max(all, 1.0)
     }
@@ -83,13 +106,10 @@ pub fn time_of_day(field: &str) -> Option<f64> {
     parts.next().is_none().then(|| 60.0 * (60.0 * f64::from(hours) + f64::from(minutes)) + seconds)
 }
 
-/// In seconds.
-const DAY: f64 = 86_400.0;
-
 /// A time of day counted on from the last one: if it runs back by half a day, it is the next day's.
 pub fn counted_on(time: f64, last: f64) -> f64 {
-    let days = ((last - time) / DAY).max(0.0).round();
-    time + DAY * if days.is_finite() { days } else { 0.0 }
+    const DAY: f64 = 86_400.0;
+    time + DAY * ((last - time) / DAY).max(0.0).round()
 }
 
 /// Is it a number whose marks may part its thousands: `1,234` or `12,345,678`?
@@ -106,6 +126,5 @@ pub fn is_grouped(field: &str, mark: char) -> bool {
 pub fn short_of(field: &str) -> String {
     let mut chars = field.chars().map(|c| if c.is_control() { '?' } else { c });
     let start: String = chars.by_ref().take(24).collect();
-    let more = chars.next().map(|_| '…');
-    start.chars().chain(once(more).flatten()).collect()
+    start.chars().chain(once(chars.next().map(|_| '…')).flatten()).collect()
 }

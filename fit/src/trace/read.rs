@@ -3,13 +3,13 @@
 //! What oscilloscopes, logic analysers and shutter testers write differs in the delimiter, the decimal mark and what
 //! stands above the numbers; all of that is read off the file itself.
 
-use std::mem::take;
+use serde::Serialize;
 
 use super::asked::Options;
 use super::bytes::decode;
-use super::layout::{Layout, Time, sound, time_of};
-use super::numbers::{counted_on, short_of};
-use super::reading::{Reading, Recording, Samples, Told};
+use super::layout::{Layout, sound};
+use super::numbers::Cell;
+use super::reading::{Recording, Told};
 use super::select::recording;
 use super::table::Table;
 use super::times::{Sample, lists_changes, ordered, staying};
@@ -34,132 +34,79 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     if layout.told == Told::Assumed {
         warnings.push(Warning::UnitAssumed);
     }
-    let time = layout.time.column();
-    let changes = time.is_some_and(|time| options.rate.is_none() && lists_changes(&table, time));
+    let changes = options.rate.is_none() && layout.time.is_some_and(|time| lists_changes(&table, time));
     if changes {
         warnings.push(Warning::Changes);
     }
-    let is_asked = |t: f64| options.from.is_none_or(|from| t >= from) && options.to.is_none_or(|to| t <= to);
-    let mut read = samples(&table, &layout, changes, |rows| {
-        rows.retain(|row| is_asked(row.time));
-        if changes {
-            *rows = staying(rows);
-        }
-    })?;
-    // It was read last.
-    let sync = layout.sync.and_then(|_| read.pop()).transpose()?;
-    let reading = |signal| Reading { window: [options.from, options.to], ..layout.reading(&table, signal) };
-    recording(layout.signals.iter().copied().zip(read).collect(), sync, reading, warnings)
+    table.is_one(layout.time.is_none())?;
+    let read = |k: usize| {
+        let reading = || layout.reading(&table.heads, k, options).to_string();
+        let (mut samples, warning) = column(&table, &layout, k, changes, reading)?;
+        samples.retain(|row| options.counts(row.time));
+        let samples = if changes { staying(&samples) } else { samples };
+        Ok(ordered(samples, changes, warning.into_iter().collect()))
+    };
+    let all = layout.signals.iter().map(|k| (*k, read(*k))).collect();
+    let sync = layout.sync.map(read).transpose()?;
+    recording(all, sync, |signal| layout.reading(&table.heads, signal, options), warnings)
 }
 
-/// The samples of each signal, and of the sync, of rows as they are `taken`. Each line is read once, since there may be
-/// thousands of columns.
-fn samples(
+/// A column's samples, and which rows were left out; of changes, those from which on the level is not known are NaN.
+fn column(
     table: &Table,
     layout: &Layout,
+    k: usize,
     changes: bool,
-    taken: impl Fn(&mut Vec<Sample>),
-) -> Result<Vec<Result<Samples, Refusal>>, Refusal> {
-    let signals: Vec<usize> = layout.signals.iter().copied().chain(layout.sync).collect();
-    let mut columns: Vec<Column> = signals.iter().map(|_| Column::default()).collect();
-    let by_rows = matches!(layout.time, Time::Steps { column: None, .. });
-    let (mut fields, mut rows) = (Vec::new(), 0);
-    let mut last = f64::NEG_INFINITY;
-    let mut between: Option<(u64, &str)> = None;
-    for (line, row) in table.lines() {
-        fields.clear();
-        fields.extend(table.form.split(row));
-        let is_remark = row.starts_with('#');
-        let is_word = row.starts_with(char::is_alphabetic) && table.form.number(fields[0]).is_none();
-        let mut is_read = false;
-        if !is_remark {
-            let mut time = time_of(table, layout.time, rows, &fields);
-            if let (Time::Day(..), Ok(time)) = (layout.time, &mut time) {
-                *time = counted_on(*time, last);
-                last = *time;
-            }
-            for (signal, column) in signals.iter().zip(&mut columns) {
-                let field = fields.get(*signal).copied().unwrap_or_default();
-                let value = time.clone().and_then(|time| Ok((time, sound("value", field, table.form.number(field))?)));
-                is_read |= value.is_ok();
-                match &time {
-                    // From here on the level is not known.
-                    Ok(time) if changes && value.is_err() && !field.is_empty() => {
-                        column.samples.push(Sample { time: *time, value: f64::NAN, line });
-                    }
-                    _ => (),
+    reading: impl Fn() -> String,
+) -> Result<(Vec<Sample>, Option<Warning>), Refusal> {
+    let (mut samples, mut broken) = (Vec::new(), Vec::new());
+    for (row, line) in table.rows().enumerate() {
+        let time = layout.time_of(table, row, line);
+        let is_empty = table.cell(line, k) == Cell::Empty;
+        match (time, sound(table, line, k, "value")) {
+            (Ok(time), Ok(value)) => samples.push(Sample { time, value, line: line.number }),
+            (time, value) => {
+                if let (Ok(time), true) = (&time, changes && !is_empty) {
+                    samples.push(Sample { time: *time, value: f64::NAN, line: line.number });
                 }
-                column.add(line, field, value);
+                let reason = time.and(value).err().unwrap_or_default();
+                broken.push((line.number, reason, is_empty.then_some(samples.len())));
             }
         }
-        // Where the rows count, what parts them parts recordings; elsewhere other names do.
-        match &between {
-            Some((line, text)) if is_read => {
-                return Err(Refusal::Blocks { line: *line, text: short_of(text) });
-            }
-            None if rows > 0 && (by_rows && (is_remark || is_word) || table.names_others(row)) => {
-                between = Some((line, row));
-            }
-            _ => (),
-        }
-        rows += usize::from(!is_remark);
     }
-    let read = |(signal, column): (&usize, Column)| {
-        column.read(changes, &taken, || layout.reading(table, *signal).to_string())
-    };
-    Ok(signals.iter().zip(columns).map(read).collect())
+    // At an end of the column empty fields are no broken rows: it may have been recorded for a part of the times.
+    broken.retain(|(.., before)| before.is_none_or(|before| (1..samples.len()).contains(&before)));
+    let count = broken.len();
+    let Some((line, reason, _)) = broken.into_iter().next() else { return Ok((samples, None)) };
+    let rows = samples.len() + count;
+    if count as f64 > BROKEN * rows as f64 {
+        return Err(Refusal::BrokenRows { count, rows, line, reason, reading: reading() });
+    }
+    Ok((samples, Some(Warning::BrokenRows { count, line, reason })))
 }
 
-/// What was read of a column.
-#[derive(Default)]
-struct Column {
-    samples: Vec<Sample>,
-    broken: usize,
-    /// The first broken row, and what is wrong with it.
-    first: Option<(u64, String)>,
-    /// Empty fields since the last sample, and the first one's line: at an end of the column they are no broken rows.
-    empty: (usize, u64),
+/// What a file begins with, so that whoever reads it can say which column is which.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Preview {
+    /// The columns' names, as far as they have some; there are as many as columns.
+    pub names: Vec<Option<String>>,
+    /// The first rows of numbers as they are written, each with its line.
+    pub rows: Vec<(u64, Vec<String>)>,
 }
 
-impl Column {
-    /// Takes a row's time and value, or what is wrong with them.
-    fn add(&mut self, line: u64, field: &str, row: Result<(f64, f64), String>) {
-        match row {
-            Ok((time, value)) => {
-                if let (count @ 1.., first) = take(&mut self.empty) {
-                    self.broken += count;
-                    self.first.get_or_insert((first, "the value is missing".into()));
-                }
-                self.samples.push(Sample { time, value, line });
-            }
-            Err(_) if field.is_empty() => {
-                let is_inside = !self.samples.is_empty();
-                self.empty =
-                    (self.empty.0 + usize::from(is_inside), if self.empty.0 == 0 { line } else { self.empty.1 });
-            }
-            Err(reason) => {
-                self.broken += 1;
-                self.first.get_or_insert((line, reason));
-            }
-        }
+/// The first rows of the table in a file's bytes, so many of them; none of a WAV, which has no lines.
+///
+/// # Errors
+/// What is no table of numbers.
+pub fn preview(bytes: &[u8], rows: usize) -> Result<Preview, Refusal> {
+    if wav::is_wav(bytes) {
+        return Ok(Preview::default());
     }
-
-    fn read(
-        mut self,
-        changes: bool,
-        taken: impl Fn(&mut Vec<Sample>),
-        reading: impl Fn() -> String,
-    ) -> Result<Samples, Refusal> {
-        let mut warnings = Vec::new();
-        if let Some((line, reason)) = self.first {
-            let (count, rows) = (self.broken, self.samples.len() + self.broken);
-            if count as f64 > BROKEN * rows as f64 {
-                return Err(Refusal::BrokenRows { count, rows, line, reason, reading: reading() });
-            }
-            warnings.push(Warning::BrokenRows { count, line, reason });
-        }
-        taken(&mut self.samples);
-        let (trace, timing) = ordered(self.samples, changes, &mut warnings);
-        Ok(Samples { trace, timing, warnings })
-    }
+    let text = decode(bytes)?;
+    let table = Table::new(&text)?;
+    // Of a field, what a narrow column can show.
+    let field = |field: &str| field.chars().take(24).collect();
+    let rows = table.rows().take(rows);
+    let rows = rows.map(|row| (row.number, table.form.split(row.text).take(table.heads.width).map(field).collect()));
+    Ok(Preview { names: (0..table.heads.width).map(|k| table.heads.name(k)).collect(), rows: rows.collect() })
 }

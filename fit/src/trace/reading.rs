@@ -84,14 +84,11 @@ pub struct Samples {
     pub warnings: Vec<Warning>,
 }
 
-fn told((number, name): &Named, of: &str) -> String {
+/// A column as it is told: `column 2, "CH1"`, or `column 2 of 3, "CH1"`.
+pub fn shown((number, name): &Named, of: Option<usize>) -> String {
+    let of = of.map_or(String::new(), |all| format!(" of {all}"));
     let name = name.as_ref().map_or(String::new(), |name| format!(", \"{name}\""));
     format!("column {number}{of}{name}")
-}
-
-/// A column as it is told: `column 2, "CH1"`.
-pub fn shown(named: &Named) -> String {
-    told(named, "")
 }
 
 impl Reading {
@@ -102,7 +99,7 @@ impl Reading {
 
     /// A column, and its place among all.
     pub fn among(&self, named: &Named) -> String {
-        told(named, &format!(" of {}", self.columns))
+        shown(named, Some(self.columns))
     }
 
     /// Are rows counted, and nothing tells from when?
@@ -123,22 +120,20 @@ impl Reading {
         let limit = |word: &str, time: Option<f64>| {
             time.map_or(String::new(), |t| format!(", {word} {}", Unit::fit(t.abs()).show(t)))
         };
-        let times = match (&self.time, self.clock) {
-            (Some(time), Clock::Unit(unit)) => {
-                format!("{} in {}, {by}", shown(time), unit.name())
+        let mut times = match self.clock {
+            Clock::Unit(unit) => {
+                let column = self.time.as_ref().map_or(String::new(), |time| shown(time, None) + " ");
+                format!("{column}in {}, {by}", unit.name())
             }
-            (_, Clock::Unit(unit)) => format!("in {}, {by}", unit.name()),
-            (_, Clock::Rate(rate)) => {
-                let from = limit("the first at", self.first.filter(|first| *first != 0.0));
-                format!("{} samples a second, {by}{from}", short(rate, 7))
+            Clock::Rate(rate) => {
+                let first = self.first.filter(|first| *first != 0.0);
+                format!("{} samples a second, {by}{}", short(rate, 7), limit("the first at", first))
             }
         };
-        let [from, to] = self.window;
-        let segments = match self.segments {
-            0 => String::new(),
-            n => format!(", in {n} segments, each a shot"),
-        };
-        times + &segments + &limit("from", from) + &limit("to", to)
+        if self.segments > 0 {
+            times += &format!(", in {} segments, each a shot", self.segments);
+        }
+        times + &limit("from", self.window[0]) + &limit("to", self.window[1])
     }
 }
 

@@ -59,8 +59,8 @@ pub fn recording(
         let [taken, other] = [taken, other].map(|k| reading(all[k].0));
         let choice = other.time.as_ref().map_or(String::new(), |(time, _)| format!("{time},"));
         warnings.push(Warning::SecondSignal {
-            taken: shown(&taken.signal),
-            other: shown(&other.signal),
+            taken: shown(&taken.signal, None),
+            other: shown(&other.signal, None),
             columns: format!("{choice}{}", other.signal.0),
         });
     }

@@ -1,8 +1,10 @@
-//! A text as rows of fields: in which form they are, which columns hold numbers, what stands above them.
+//! A text as rows of cells: in which form they are, which columns hold numbers, what stands above them.
 
-use super::asked::Column;
-use super::names::{Means, Said, is_unit, said, setting};
-use super::numbers::{Form, counted_on, is_grouped, short_of};
+use std::ops::Range;
+
+use super::heads::Heads;
+use super::names::{Means, Said, is_unit, said, setting, unit_of};
+use super::numbers::{Cell, Form, counted_on, is_grouped, short_of};
 use super::settings::Settings;
 use super::told::Refusal;
 
@@ -18,10 +20,6 @@ const LONGEST_HEADER: usize = 500;
 /// With so many numbers in a line, and fewer lines than this, the lines are columns.
 const LONG_ROW: usize = 16;
 
-fn filled_lines(text: &str) -> impl Iterator<Item = &str> {
-    text.lines().filter(|line| !line.trim().is_empty())
-}
-
 fn refused(reason: impl Into<String>) -> Refusal {
     Refusal::NotCsv { reason: reason.into() }
 }
@@ -30,163 +28,186 @@ fn refused(reason: impl Into<String>) -> Refusal {
 ///
 /// # Errors
 /// Numbers whose marks part decimals or thousands, as one likes.
-fn form(text: &str, total: usize) -> Result<Form, Refusal> {
-    let half = total - total.div_ceil(2);
-    let lines: Vec<&str> = filled_lines(text).skip(half).step_by(total / 2 / LOOKED_AT + 1).collect();
-    let (mut form, mut best) = (Form { delimiter: ',', comma: false }, 0.0);
-    for other in Form::all() {
-        let share = other.fits(&lines);
-        if share > best {
-            (form, best) = (other, share);
-        }
-    }
-    let fields = || filled_lines(text).skip(half).flat_map(|line| form.split(line)).filter(|field| field.contains(','));
-    let is_none = |field: &&str| form.number(field).is_none() && form.number(&field.replace([',', '.'], "")).is_some();
-    if let Some(number) = fields().find(is_none) {
-        return Err(Refusal::Thousands { number: short_of(number) });
-    }
+fn form<'a>(lines: &[&'a str]) -> Result<Form, Refusal> {
+    let half = &lines[lines.len() / 2..];
+    let few = || half.iter().copied().step_by(lines.len() / 2 / LOOKED_AT + 1);
+    let scored = Form::all().map(|form| (form.fits(few()), form));
+    let best = scored.reduce(|best, other| if other.0 > best.0 { other } else { best });
+    let form = best.map_or(Form::default(), |(_, form)| form);
+
+    let marked = |lines: &[&'a str]| -> Vec<&'a str> {
+        lines.iter().flat_map(|line| form.split(line)).filter(|field| field.contains(',')).collect()
+    };
+    let is_unread =
+        |field: &&&str| form.number(field).is_none() && form.number(&field.replace([',', '.'], "")).is_some();
     // Decimals have a `0,1` or a `1,5` somewhere; whole thousands have neither.
-    let mut decimals = filled_lines(text).flat_map(|line| form.split(line)).filter(|field| field.contains(','));
-    let first = decimals.find(|field| form.number(field).is_some()).filter(|_| form.comma);
-    match first {
-        Some(number)
-            if is_grouped(number, ',') && decimals.all(|it| form.number(it).is_none() || is_grouped(it, ',')) =>
-        {
-            Err(Refusal::Thousands { number: short_of(number) })
-        }
-        _ => Ok(form),
+    let mut decimals = marked(lines);
+    decimals.retain(|field| form.number(field).is_some());
+    let grouped = decimals.first().filter(|_| decimals.iter().all(|field| is_grouped(field, ',')));
+    match marked(half).iter().find(is_unread).or(grouped) {
+        Some(number) => Err(Refusal::Thousands { number: short_of(number) }),
+        None => Ok(form),
     }
 }
 
-/// What stands above the rows: a line, and its fields.
-type Above<'a> = (&'a str, Vec<String>);
+/// A line that is not empty.
+pub struct Line<'a> {
+    pub number: u64,
+    pub text: &'a str,
+    cells: Range<usize>,
+}
 
-/// The file as rows of fields, and what stands above them.
+impl Line<'_> {
+    pub fn is_remark(&self) -> bool {
+        self.text.starts_with('#')
+    }
+}
+
+/// The file as rows of cells, and what stands above them.
 #[derive(Default)]
 pub struct Table<'a> {
-    text: &'a str,
     pub form: Form,
-    above: Vec<Above<'a>>,
-    /// The row of names right above the numbers, and the row of units below it.
-    names: [Vec<String>; 2],
-    /// So many fields a row has.
-    pub width: usize,
+    pub heads: Heads,
+    above: Vec<(&'a str, Vec<String>)>,
+    /// The lines from the first row on.
+    pub lines: Vec<Line<'a>>,
+    cells: Vec<Cell>,
     /// Those columns that hold numbers or times of day.
     pub columns: Vec<usize>,
-    /// Those of them that hold times of day.
+    /// Those of them that hold times of day: they count in seconds from the first one.
     clocks: Vec<usize>,
-    /// Each column's numbers, of the first rows and of some from the whole file.
-    pub first: Vec<Vec<f64>>,
-    pub spread: Vec<Vec<f64>>,
 }
 
 impl<'a> Table<'a> {
     pub fn new(text: &'a str) -> Result<Self, Refusal> {
-        if let Some((i, line)) = text.lines().enumerate().find(|(_, line)| line.len() > LONGEST_LINE) {
-            let long = format!("line {} is {} bytes long", i + 1, line.len());
+        let filled = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+        if let Some((number, line)) = filled().find(|(_, line)| line.len() > LONGEST_LINE) {
+            let long = format!("line {number} is {} bytes long", line.len());
             return Err(refused(format!("{long}; each sample needs a line of its own")));
         }
-        let total = filled_lines(text).count();
-        let form = form(text, total)?;
-        let mut table = Self { text, form, ..Self::default() };
-        let filled = table.judge(total);
-        let lines: Vec<&str> = filled_lines(text).take(LONGEST_HEADER).collect();
-        let first = lines.iter().position(|line| table.is_row(line, &filled));
-        let Some(first) = first.filter(|_| !table.columns.is_empty()) else { return Err(table.no_rows(total)) };
-        let count = first - (0..first).rev().take_while(|line| table.leads(&lines, *line, &filled)).count();
-        if table.columns.len() >= LONG_ROW && total - count < LONG_ROW {
+        let form = form(&filled().map(|(_, line)| line).collect::<Vec<_>>())?;
+        let mut table = Self { form, ..Self::default() };
+        for (number, text) in filled() {
+            let start = table.cells.len();
+            table.cells.extend(form.split(text).map(|field| form.cell(field)));
+            table.lines.push(Line { number, text, cells: start..table.cells.len() });
+        }
+        let usual = table.judge();
+        let total = table.lines.len();
+        let first = (0..total.min(LONGEST_HEADER)).find(|line| table.is_row(*line, &usual));
+        let Some(first) = first else { return Err(table.no_rows()) };
+        let above = first - (0..first).rev().take_while(|line| table.leads(*line, &usual)).count();
+        if table.columns.len() >= LONG_ROW && total - above < LONG_ROW {
             return Err(refused("all values stand in one line; each sample needs a line of its own"));
         }
-        table.width = form.split(lines[first]).count();
-        table.above = lines[..count].iter().map(|line| (*line, table.fields_above(line))).collect();
-        table.names = table.names();
-        table.first = table.numbers(1);
-        table.spread = table.numbers((total - count).div_ceil(JUDGED));
+        table.heads.width = table.lines[first].cells.len();
+        let above: Vec<Line> = table.lines.drain(..above).collect();
+        table.above = above.iter().map(|line| (line.text, table.fields_above(line.text))).collect();
+        table.heads.names = table.names();
+        table.count_days();
         Ok(table)
+    }
+
+    fn cells(&self, line: &Line) -> &[Cell] {
+        &self.cells[line.cells.clone()]
+    }
+
+    /// What a line has in a column.
+    pub fn cell(&self, line: &Line, column: usize) -> Cell {
+        self.cells(line).get(column).copied().unwrap_or(Cell::Empty)
+    }
+
+    /// The same as it is written.
+    pub fn field(&self, line: &Line<'a>, column: usize) -> &'a str {
+        self.form.split(line.text).nth(column).unwrap_or_default()
     }
 
     /// Finds the columns of numbers, and tells for each column whether something stands in most rows. Words count in
     /// the last third alone, which is no header. Empty fields say nothing of a column: it may have been recorded for a
     /// part of the times.
-    fn judge(&mut self, total: usize) -> Vec<bool> {
-        #[derive(Clone, Default)]
-        struct Count {
-            numbers: usize,
-            clocks: usize,
-            words: usize,
-            filled: usize,
-        }
-        let (mut counts, mut rows, mut last) = (Vec::<Count>::new(), 0, 0);
-        let lines = filled_lines(self.text).enumerate().step_by(total / JUDGED + 1);
-        for (i, line) in lines.filter(|(_, line)| !line.starts_with('#')) {
-            let is_last = usize::from(3 * i >= 2 * total);
+    fn judge(&mut self) -> Vec<bool> {
+        // Of each column the numbers, the times of day among them, the last third's words, and all of that third.
+        let (mut counts, mut rows, mut last) = (Vec::<[usize; 4]>::new(), 0, 0);
+        for (i, line) in self.lines.iter().enumerate().filter(|(_, line)| !line.is_remark()) {
+            let is_last = usize::from(3 * i >= 2 * self.lines.len());
             (rows, last) = (rows + 1, last + is_last);
-            for (k, field) in self.form.split(line).enumerate().filter(|(_, field)| !field.is_empty()) {
-                counts.resize(counts.len().max(k + 1), Count::default());
-                let count = &mut counts[k];
-                count.filled += is_last;
-                match self.form.cell(field) {
-                    Some(_) => count.numbers += 1,
-                    None => count.words += is_last,
-                }
-                count.clocks += usize::from(self.form.number(field).is_none() && self.form.cell(field).is_some());
+            counts.resize(counts.len().max(line.cells.len()), [0; 4]);
+            for (count, cell) in counts.iter_mut().zip(self.cells(line)) {
+                let more = match cell {
+                    Cell::Number(_) => [1, 0, 0, is_last],
+                    Cell::Clock(_) => [1, 1, 0, is_last],
+                    Cell::Word => [0, 0, is_last, is_last],
+                    Cell::Empty => continue,
+                };
+                (0..4).for_each(|k| count[k] += more[k]);
             }
         }
         let is_often = |n: usize| 5 * n >= rows || n >= FEW && 20 * n >= rows;
-        let holds_numbers = |k: &usize| counts[*k].numbers > counts[*k].words && is_often(counts[*k].numbers);
+        let holds_numbers = |k: &usize| counts[*k][0] > counts[*k][2] && is_often(counts[*k][0]);
         self.columns = (0..counts.len()).filter(holds_numbers).collect();
-        self.clocks = self.columns.iter().copied().filter(|k| 2 * counts[*k].clocks > counts[*k].numbers).collect();
-        counts.iter().map(|count| 2 * count.filled > last).collect()
+        self.clocks = self.columns.iter().copied().filter(|k| 2 * counts[*k][1] > counts[*k][0]).collect();
+        counts.iter().map(|count| 2 * count[3] > last).collect()
     }
 
     /// Does a line have something in no column where most rows have nothing?
-    fn is_bare(&self, line: &str, filled: &[bool]) -> bool {
-        let is_like =
-            |(k, field): (usize, &str)| field.is_empty() || filled.get(k) == Some(&true) || self.columns.contains(&k);
-        self.form.split(line).enumerate().all(is_like)
+    fn is_bare(&self, line: usize, usual: &[bool]) -> bool {
+        let mut cells = self.cells(&self.lines[line]).iter().enumerate();
+        cells.all(|(k, cell)| *cell == Cell::Empty || usual[k] || self.columns.contains(&k))
     }
 
     /// Does a line hold what most rows hold?
-    fn is_row(&self, line: &str, filled: &[bool]) -> bool {
-        let fields: Vec<&str> = self.form.split(line).collect();
-        let field = |k: &usize| fields.get(*k).copied().unwrap_or_default();
-        let is_number = |k: &usize| self.form.cell(field(k)).is_some();
+    fn is_row(&self, line: usize, usual: &[bool]) -> bool {
+        let row = &self.lines[line];
+        let is_number = |k: &usize| self.cell(row, *k).number().is_some();
         // What stands above the numbers may have some in places, but hardly where the times are.
         let has_first = self.columns.first().is_some_and(is_number);
-        let has_others = self.columns.iter().all(|k| is_number(k) || field(k).is_empty());
-        !line.starts_with('#') && has_first && has_others && self.is_bare(line, filled)
+        let has_others = self.columns.iter().all(|k| is_number(k) || self.cell(row, *k) == Cell::Empty);
+        !row.is_remark() && has_first && has_others && self.is_bare(line, usual)
     }
 
     /// Does a line above such a row belong to the rows? It may be broken, or have settings where others have nothing,
     /// if its time leads to theirs.
-    fn leads(&self, lines: &[&str], line: usize, filled: &[bool]) -> bool {
-        let time = |line: usize| self.form.cell(self.form.split(lines.get(line)?).nth(self.columns[0])?);
+    fn leads(&self, line: usize, usual: &[bool]) -> bool {
+        let time = |line: usize| self.cell(self.lines.get(line)?, self.columns[0]).number();
         let is_step = || {
             let (a, b, c) = (time(line)?, time(line + 1)?, time(line + 2)?);
             Some((2.0 * b - a - c).abs() < 0.1 * (c - b).abs())
         };
-        let is_timed = self.columns.len() > 1 && time(line).is_some() && !lines[line].starts_with('#');
-        is_timed && (self.is_bare(lines[line], filled) || is_step() == Some(true))
+        let is_timed = self.columns.len() > 1 && time(line).is_some() && !self.lines[line].is_remark();
+        is_timed && (self.is_bare(line, usual) || is_step() == Some(true))
     }
 
-    fn no_rows(&self, total: usize) -> Refusal {
+    fn no_rows(&self) -> Refusal {
         // A line of the middle shows best what the rows are.
-        let line = filled_lines(self.text).nth(total / 2).unwrap_or_default();
-        let shown = line.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60);
-        let is_labelled = |field: &str| {
-            let label = field.split_once([':', '=']).filter(|(label, _)| label.starts_with(char::is_alphabetic));
-            label.is_some_and(|(_, number)| self.form.number(number.trim()).is_some())
-        };
-        let mut fields = line.split([',', ';', '\t', ' ']).filter(|field| !field.is_empty()).peekable();
-        let hint = match fields.peek().is_some() && fields.all(is_labelled) {
-            true => " (a label before each number: put the labels into a first line instead)",
-            false => "",
-        };
-        refused(format!("there is no row of numbers in it; its middle line is '{}'{hint}", shown.collect::<String>()))
+        let line = self.lines.get(self.lines.len() / 2).map_or("", |line| line.text);
+        let shown: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60).collect();
+        refused(format!(
+            "there is no row of numbers in it, without a label or a unit beside each; its middle line is '{shown}'"
+        ))
+    }
+
+    /// Times of day become seconds since the first one; in other columns they are words.
+    fn count_days(&mut self) {
+        let mut since: Vec<Option<(f64, f64)>> = vec![None; self.clocks.len()];
+        for line in self.lines.iter().filter(|line| !line.is_remark()) {
+            for (k, cell) in self.cells[line.cells.clone()].iter_mut().enumerate() {
+                let clock = self.clocks.iter().position(|clock| *clock == k);
+                *cell = match (*cell, clock) {
+                    (Cell::Clock(x), Some(clock)) => {
+                        let (first, last) = since[clock].unwrap_or((x, 0.0));
+                        let time = counted_on(x - first, last);
+                        since[clock] = Some((first, time));
+                        Cell::Number(time)
+                    }
+                    (Cell::Clock(_), None) | (Cell::Number(_), Some(_)) => Cell::Word,
+                    (other, _) => other,
+                };
+            }
+        }
     }
 
     /// The fields of a line above the rows; what makes it a comment is no part of the first. Of names between blanks, a
-    /// unit in brackets belongs to the word before it.
+    /// unit in brackets belongs to the word before it; settings are no words between blanks.
     fn fields_above(&self, line: &str) -> Vec<String> {
         let inner = line.trim_start_matches(['#', '%', '/', ';']).trim_start();
         let inner = if inner.len() < line.len() { inner } else { line };
@@ -199,14 +220,9 @@ impl<'a> Table<'a> {
                 _ => fields.push(field.into()),
             }
         }
-        // Names may stand between other marks than the rows; settings are no words between blanks.
-        let by = |mark: char| -> Vec<String> { inner.split(mark).map(|field| field.trim().into()).collect() };
-        let mut others = [',', ';', '\t'].map(by).into_iter();
-        let are_words = self.form.delimiter == ' ' && fields.len() != self.width;
-        match others.find(|other| other.len() == self.width && self.columns.len() > 1) {
-            Some(other) if are_words || fields.len() == 1 => other,
-            None if are_words => by(','),
-            _ => fields,
+        match self.form.delimiter == ' ' && fields.len() != self.heads.width {
+            true => inner.split(',').map(|field| field.trim().into()).collect(),
+            false => fields,
         }
     }
 
@@ -218,7 +234,7 @@ impl<'a> Table<'a> {
             // Beside a time's name, a channel's may be a number.
             let is_channel = |field: &str| field.len() < 4 && field.bytes().all(|b| b.is_ascii_digit());
             let is_time = cells().next().is_some_and(|first| said(first) == Said::Time);
-            let is_name = |field: &String| self.form.cell(field).is_none() || is_time && is_channel(field);
+            let is_name = |field: &String| self.form.cell(field) == Cell::Word || is_time && is_channel(field);
             let is_setting = setting(&fields[0]).is_some_and(|means| means != Means::Names);
             fields.len() > last && 2 * cells().count() > self.columns.len() && cells().all(is_name) && !is_setting
         };
@@ -238,46 +254,56 @@ impl<'a> Table<'a> {
 
     /// What the lines above the rows say of the times, and what stands beside the first rows where others have nothing.
     pub fn settings(&self) -> Settings {
-        let above = self.above.iter().cloned();
-        let beside = self.rows().take(JUDGED).map(|(_, row)| {
-            let fields = self.form.split(row).enumerate().filter(|(k, _)| !self.columns.contains(k));
-            (row, fields.map(|(_, field)| field.into()).collect::<Vec<String>>())
+        let beside = self.rows().take(JUDGED).map(|row| {
+            let fields = self.form.split(row.text).enumerate().filter(|(k, _)| !self.columns.contains(k));
+            (row.text, fields.map(|(_, field)| field.into()).collect::<Vec<String>>())
         });
         let beside = beside.filter(|(_, fields)| fields.iter().any(|field| field.contains(char::is_alphabetic)));
-        Settings::new(&above.chain(beside).collect::<Vec<_>>(), self.form)
+        Settings::new(&self.above.iter().cloned().chain(beside).collect::<Vec<_>>(), self.form)
     }
 
-    /// Is the line a row of names, though not of these columns?
-    pub fn names_others(&self, line: &str) -> bool {
-        let fields = self.fields_above(line);
-        let is_name = |k: &usize| fields.get(*k).is_some_and(|field| field.starts_with(char::is_alphabetic));
-        self.columns.len() > 1
-            && self.columns.iter().all(|k| is_name(k) && self.form.number(&fields[*k]).is_none())
-            && self.columns.iter().any(|k| self.names[0].get(*k) != fields.get(*k))
-            && !self.above.iter().any(|(above, _)| *above == line)
-    }
-
-    /// The lines from the first row on, each with its number.
-    pub fn lines(&self) -> impl Iterator<Item = (u64, &'a str)> {
-        let lines = (1..).zip(self.text.lines());
-        lines.filter(|(_, line)| !line.trim().is_empty()).skip(self.above.len())
-    }
-
-    /// The same without comments.
-    pub fn rows(&self) -> impl Iterator<Item = (u64, &'a str)> {
-        self.lines().filter(|(_, line)| !line.starts_with('#'))
-    }
-
-    /// The numbers in each column, of some rows.
-    fn numbers(&self, each: usize) -> Vec<Vec<f64>> {
-        let mut numbers = vec![Vec::new(); self.width.max(self.columns[self.columns.len() - 1] + 1)];
-        for (_, row) in self.rows().step_by(each.max(1)).take(JUDGED) {
-            for (k, (column, field)) in numbers.iter_mut().zip(self.form.split(row)).enumerate() {
-                let last = column.last().copied().filter(|_| self.is_clock(k));
-                column.extend(self.form.cell(field).map(|x| last.map_or(x, |last| counted_on(x, last))));
-            }
+    /// # Errors
+    /// Another recording begins between the rows: with a remark or a word where they are counted, and elsewhere with
+    /// names of other columns.
+    pub fn is_one(&self, are_counted: bool) -> Result<(), Refusal> {
+        let is_row = |line: &Line| self.cell(line, self.columns[0]).number().is_some();
+        let begins = |line: &&Line| {
+            let is_word = line.text.starts_with(char::is_alphabetic) && self.cell(line, 0) == Cell::Word;
+            let fields = || self.fields_above(line.text);
+            let is_name = |field: &String| field.starts_with(char::is_alphabetic) && self.form.number(field).is_none();
+            let names_others = |fields: Vec<String>| {
+                self.columns.iter().all(|k| fields.get(*k).is_some_and(is_name))
+                    && self.columns.iter().any(|k| self.heads.names[0].get(*k) != fields.get(*k))
+                    && !self.above.iter().any(|(above, _)| *above == line.text)
+            };
+            !is_row(line)
+                && (are_counted && (line.is_remark() || is_word) || self.columns.len() > 1 && names_others(fields()))
+        };
+        let last = self.lines.iter().rposition(is_row).unwrap_or(0);
+        match self.lines[..last].iter().skip(1).find(begins) {
+            Some(line) => Err(Refusal::Blocks { line: line.number, text: short_of(line.text) }),
+            None => Ok(()),
         }
-        numbers
+    }
+
+    /// The lines that are no comments.
+    pub fn rows(&self) -> impl Iterator<Item = &Line<'a>> {
+        self.lines.iter().filter(|line| !line.is_remark())
+    }
+
+    fn numbers(&self, column: usize, each: usize) -> Vec<f64> {
+        let rows = self.rows().step_by(each.max(1)).take(JUDGED);
+        rows.filter_map(|row| self.cell(row, column).number()).collect()
+    }
+
+    /// A column's numbers in the first rows.
+    pub fn first(&self, column: usize) -> Vec<f64> {
+        self.numbers(column, 1)
+    }
+
+    /// A column's numbers in some rows of the whole file.
+    pub fn spread(&self, column: usize) -> Vec<f64> {
+        self.numbers(column, self.lines.len().div_ceil(JUDGED))
     }
 
     /// Does a column hold times of day?
@@ -285,74 +311,31 @@ impl<'a> Table<'a> {
         self.clocks.contains(&column)
     }
 
-    /// A column by its number, from 0, or by its name.
-    pub fn column(&self, column: &Column) -> Result<usize, Refusal> {
-        let found = match column {
-            Column::Number(number) => number.checked_sub(1),
-            Column::Name(name) => {
-                let wanted = name.to_lowercase();
-                let has = |k: &usize| self.name(*k).is_some_and(|n| n.to_lowercase().contains(&wanted));
-                let exact = self.names[0].iter().position(|n| n.to_lowercase() == wanted);
-                exact.or_else(|| (0..self.width).find(has))
-            }
-        };
-        found
-            .filter(|k| *k < self.width)
-            .ok_or_else(|| Refusal::NoColumn { name: column.to_string(), there: self.told(0..self.width) })
-    }
-
-    /// So many columns, and their names: `2: time_s, v`.
-    pub fn told(&self, columns: impl Iterator<Item = usize>) -> String {
-        let columns: Vec<usize> = columns.collect();
-        let names: Vec<String> = columns.iter().take(12).filter_map(|k| self.name(*k)).collect();
-        let more = if columns.len() > 12 { ", …" } else { "" };
-        match names.is_empty() {
-            true => columns.len().to_string(),
-            false => format!("{}: {}{more}", columns.len(), names.join(", ")),
-        }
-    }
-
-    /// A column's name with its unit, as far as a message can hold it.
-    pub fn name(&self, column: usize) -> Option<String> {
-        let parts = self.names.iter().filter_map(|row| row.get(column));
-        let parts: Vec<&str> = parts.map(String::as_str).filter(|part| !part.is_empty()).collect();
-        (!parts.is_empty()).then(|| short_of(&parts.join(" ")))
-    }
-
-    /// The first field that is no number in the first row, as a reader of a refusal may need it.
-    pub fn text_beside(&self) -> Option<String> {
-        let (_, row) = self.rows().next()?;
-        let mut fields = self.form.split(row);
-        fields.find(|field| !field.is_empty() && self.form.cell(field).is_none()).map(short_of)
+    /// The first word in the first row, as a reader of a refusal may need it.
+    pub fn text_beside(&self) -> Option<&'a str> {
+        let row = self.rows().next()?;
+        let k = self.cells(row).iter().position(|cell| *cell == Cell::Word)?;
+        Some(self.field(row, k))
     }
 
     /// A row that may be a value alone with a decimal comma, if all are like that and few whole numbers come before it.
     pub fn decimal(&self) -> Option<String> {
         let alone = Form { delimiter: ';', comma: true };
-        let rows: Vec<&str> = self.rows().map(|(_, row)| row).take(JUDGED).collect();
-        let mut whole = self.first[0].clone();
+        let is_pair = self.form == Form { delimiter: ',', comma: false } && self.columns == [0, 1];
+        let mut whole = self.first(0);
+        let count = whole.len();
         whole.sort_by(f64::total_cmp);
         whole.dedup();
-        let is_pair = self.form == Form { delimiter: ',', comma: false } && self.columns == [0, 1];
-        let is_one = is_pair && self.names[0].is_empty() && 4 * whole.len() <= rows.len() && alone.fits(&rows) == 1.0;
-        is_one.then(|| short_of(rows[0]))
+        let texts = || self.rows().map(|row| row.text).take(JUDGED);
+        let is_one =
+            is_pair && self.heads.names[0].is_empty() && 4 * whole.len() <= count && alone.fits(texts()) == 1.0;
+        texts().next().filter(|_| is_one).map(short_of)
     }
 
-    /// A column's number with the word that stands behind it in a row between blanks, which may be its unit.
-    pub fn number_and_word(&self, column: usize) -> Option<String> {
-        let mut fields = self.form.split(self.rows().next()?.1).skip(column);
-        let (number, word) = (fields.next()?, fields.next()?);
-        let is_one = self.form.delimiter == ' ' && word.starts_with(char::is_alphabetic);
-        (is_one && self.form.cell(word).is_none()).then(|| short_of(&format!("{number} {word}")))
-    }
-
-    pub fn is_named(&self, column: usize, name: &str) -> bool {
-        self.names[0].get(column).is_some_and(|it| it == name)
-    }
-
-    /// What names a column: its unit, where a row of units has one, or else its name.
-    pub fn label(&self, column: usize) -> &str {
-        let [name, unit] = [0, 1].map(|row: usize| self.names[row].get(column).map_or("", String::as_str));
-        if unit.is_empty() { name } else { unit }
+    /// A column's number with the unit that stands behind it.
+    pub fn number_and_unit(&self, column: usize) -> Option<String> {
+        let row = self.rows().next()?;
+        let [number, word] = [0, 1].map(|k| self.field(row, column + k));
+        unit_of(word).map(|_| short_of(&format!("{number} {word}")))
     }
 }

@@ -1,6 +1,8 @@
 //! What the times of a file's rows are beside numbers: segments that begin anew, values that were rounded, changes of a
 //! level that stays in between.
 
+use super::numbers::Cell;
+use super::reading::Samples;
 use super::samples::{Trace, median, range};
 use super::table::{JUDGED, Table};
 use super::told::Warning;
@@ -133,7 +135,7 @@ fn stamped(rows: &[Sample]) -> Option<(usize, f64)> {
 
 /// The samples in order, those of the same time averaged, and what is known of the times, which may be those of
 /// changes.
-pub fn ordered(mut rows: Vec<Sample>, are_changes: bool, warnings: &mut Vec<Warning>) -> (Trace, Timing) {
+pub fn ordered(mut rows: Vec<Sample>, are_changes: bool, mut warnings: Vec<Warning>) -> Samples {
     let mut timing = Timing { segments: apart(&mut rows), ..Timing::default() };
     if let Some(pair) = rows.windows(2).find(|pair| pair[1].time < pair[0].time) {
         warnings.push(Warning::Unsorted { line: pair[1].line });
@@ -166,32 +168,32 @@ pub fn ordered(mut rows: Vec<Sample>, are_changes: bool, warnings: &mut Vec<Warn
     if let Some(line) = again {
         warnings.push(Warning::Duplicates { count: duplicates, line });
     }
-    (trace, timing)
+    Samples { trace, timing, warnings }
 }
 
 /// Does nearly every row tell a change of columns that have two values, at uneven times? A value may be unknown, and
 /// the last row cut.
-pub fn lists_changes<'a>(table: &Table<'a>, time: usize) -> bool {
-    let others = || table.columns.iter().filter(|k| **k != time);
-    let field = |row: &[&'a str], k: usize| row.get(k).copied().unwrap_or_default();
-    let rows = table.rows().take(JUDGED).map(|(_, row)| table.form.split(row).collect::<Vec<&'a str>>());
-    let rows: Vec<_> = rows.filter(|row| others().any(|k| !field(row, *k).is_empty())).collect();
-    let is_switch = |k: &usize| {
-        let mut levels: Vec<f64> = rows.iter().filter_map(|row| table.form.number(field(row, *k))).collect();
+pub fn lists_changes(table: &Table, time: usize) -> bool {
+    let others: Vec<usize> = table.columns.iter().copied().filter(|k| *k != time).collect();
+    let levels = |row| others.iter().map(|k| table.cell(row, *k)).collect::<Vec<Cell>>();
+    let rows: Vec<_> = table.rows().take(JUDGED).map(levels).collect();
+    let rows: Vec<_> = rows.into_iter().filter(|row| row.iter().any(|cell| *cell != Cell::Empty)).collect();
+    let is_switch = |k: usize| {
+        let mut levels: Vec<f64> = rows.iter().filter_map(|row| row[k].number()).collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup();
         levels.len() <= 2
     };
-    let times = &table.first[time][..rows.len().min(table.first[time].len())];
-    let (least, most) = range(times.windows(2).map(|pair| pair[1] - pair[0]));
-    let changes = |pair: &&[Vec<&'a str>]| others().any(|k| field(&pair[0], *k) != field(&pair[1], *k));
     let n = rows.len();
+    let times = table.first(time);
+    let (least, most) = range(times[..n.min(times.len())].windows(2).map(|pair| pair[1] - pair[0]));
+    let changes = rows.windows(2).filter(|pair| pair[0] != pair[1]).count() + 1;
     n > 2
-        && others().count() > 0
-        && others().all(is_switch)
+        && !others.is_empty()
+        && (0..others.len()).all(is_switch)
         && least > 0.0
         && most > 1.5 * least
-        && 10 * (rows.windows(2).filter(changes).count() + 1) >= 9 * n
+        && 10 * changes >= 9 * n
 }
 
 /// A list of changes as samples of levels that stay in between, unless they are NaN: where they stay for long, at both

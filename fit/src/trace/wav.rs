@@ -1,7 +1,9 @@
 //! A sound file as a trace: the channels are its columns, and it tells its rate.
 
-use super::asked::{Column, Options};
-use super::reading::{Clock, Reading, Recording, Samples, Told};
+use super::asked::Options;
+use super::heads::Heads;
+use super::layout::Layout;
+use super::reading::{Clock, Recording, Samples, Told};
 use super::samples::Trace;
 use super::select::recording;
 use super::times::Timing;
@@ -76,50 +78,29 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     if announced == Some(0) {
         return Err(refused("it announces no samples; was its recording ended?".into()));
     }
+    let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
     let rate = options.rate.unwrap_or(rate);
-    let there = values.len() / channels;
-    let channel = |k: usize| -> Samples {
-        let values = values.iter().skip(k).step_by(channels);
-        let is_sound = |(_, v): &(usize, &f64)| v.is_finite();
-        let timed = values.enumerate().filter(is_sound).map(|(i, v)| (i as f64 / rate, *v));
-        let is_asked =
-            |(t, _): &(f64, f64)| options.from.is_none_or(|from| *t >= from) && options.to.is_none_or(|to| *t <= to);
-        let (times, values) = timed.filter(is_asked).unzip();
+    let heads = Heads { width: channels, ..Heads::default() };
+    let (mut signals, sync) = heads.asked(options, |_| false)?;
+    if signals.is_empty() {
+        signals.extend((0..channels).filter(|k| Some(*k) != sync));
+    }
+    if signals.is_empty() {
+        let reason = "its channel is the signal's; record the sync on one of its own".into();
+        return Err(Refusal::NoDelay { reason });
+    }
+    let channel = |k: usize| {
+        let timed = values.iter().skip(k).step_by(channels).enumerate().map(|(i, v)| (i as f64 / rate, *v));
+        let (times, values) = timed.filter(|(t, v)| v.is_finite() && options.counts(*t)).unzip();
         Samples { trace: Trace { times, values }, timing: Timing::default(), warnings: Vec::new() }
     };
-    let place = |column: &Column| match column {
-        Column::Number(number) if (1..=channels).contains(number) => Ok(number - 1),
-        other => {
-            let there = format!("{channels} channels, by number");
-            Err(Refusal::NoColumn { name: other.to_string(), there })
-        }
-    };
-    let mut asked = options.columns.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-    let no_delay = |reason: String| Refusal::NoDelay { reason };
-    let sync = options.sync.as_ref().map(place).transpose();
-    let sync = sync.map_err(|refusal| no_delay(refusal.to_string()))?;
-    if asked.is_empty() {
-        asked.extend((0..channels).filter(|k| Some(*k) != sync));
-    }
-    if asked.is_empty() || sync.is_some_and(|sync| asked.contains(&sync)) {
-        return Err(no_delay("its channel is the signal's; record the sync on one of its own".into()));
-    }
-    let named = |k: usize| (k + 1, None);
-    let reading = |signal| Reading {
-        columns: channels,
-        time: None,
-        signal: named(signal),
-        sync: sync.map(named),
-        clock: Clock::Rate(rate),
-        first: Some(0.0),
-        told: if options.rate.is_some() { Told::Asked } else { Told::Format },
-        window: [options.from, options.to],
-        segments: 0,
-    };
+    let layout = Layout { time: None, clock: Clock::Rate(rate), from: 0.0, first: Some(0.0), told, signals, sync };
+    let reading = |signal| layout.reading(&heads, signal, options);
     let mut warnings = vec![Warning::SoundCard];
+    let there = values.len() / channels;
     if let Some(announced) = announced.filter(|announced| there < *announced) {
         warnings.push(Warning::CutOff { samples: there, announced });
     }
-    let all = asked.into_iter().map(|k| (k, Ok(channel(k)))).collect();
+    let all = layout.signals.iter().map(|k| (*k, Ok(channel(*k)))).collect();
     recording(all, sync.map(channel), reading, warnings)
 }

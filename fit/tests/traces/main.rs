@@ -8,9 +8,6 @@ mod curve;
 #[path = "../../src/trace/names.rs"]
 mod names;
 #[allow(dead_code)]
-#[path = "../../src/trace/numbers.rs"]
-mod numbers;
-#[allow(dead_code)]
 #[path = "../../src/ramp.rs"]
 mod ramp;
 use shutter_fit::unit;
