@@ -34,7 +34,7 @@ pub fn run() -> Result {
         ("inverse, worst", worst(InverseCdf, false), 2090.0),
         ("inverse, worst without a search", worst(InverseCdf, true), 131.0),
         ("inverse of a static, worst without a search", worst(Static, true), 143.0),
-        ("tick, worst", worst(Tick, false), 2070.0),
+        ("tick, worst", worst(Tick, false), 2240.0),
         ("tick, worst without a search", worst(Tick, true), 184.0),
         ("instructions of a Cortex-M0+, all ramp: inverse", on_m0(InverseCdf, DEFAULT), 690.0),
         (

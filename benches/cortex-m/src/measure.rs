@@ -98,31 +98,28 @@ impl Measured {
 
 fn series(core: Core, functions: &[Of], curves: usize, at_hard: &[Of]) -> Vec<Series> {
     let mut all = Vec::new();
-    for &(function, octaves) in functions.iter().filter(|(function, _)| *function != SqrtFpu || core.has_fpu()) {
-        for is_hard in [false, true].into_iter().filter(|is_hard| !is_hard || at_hard.contains(&(function, octaves))) {
-            let curves = match (is_hard, function) {
-                (false, Construct) => 0..1,
-                (false, _) => 0..curves,
-                (true, Construct) => 0..0,
-                (true, Static) => 0..TYPICAL,
-                (true, _) => 0..CURVES.len(),
-            };
-            let is_straight = function.is_for_straight_ramps();
-            for curve in curves.filter(|curve| !is_straight || *curve == TRAPEZOID) {
-                let us = match (function, is_hard) {
-                    (Construct | Schedule, _) => vec![0.0],
-                    (_, false) => (0..512).map(uniform).collect(),
-                    (_, true) => hard(curve, octaves),
+    for &of in functions.iter().filter(|(function, _)| *function != SqrtFpu || core.has_fpu()) {
+        let hard_curves = match of.0 {
+            Static => TYPICAL,
+            Construct => 0,
+            _ => CURVES.len(),
+        };
+        let hard_curves = if at_hard.contains(&of) { hard_curves } else { 0 };
+        for (is_hard, curves) in [(false, if of.0 == Construct { 1 } else { curves }), (true, hard_curves)] {
+            for curve in (0..curves).filter(|curve| !of.0.is_for_straight_ramps() || *curve == TRAPEZOID) {
+                let us = match of.0 {
+                    Construct | Schedule => vec![0.0],
+                    _ if is_hard => hard(curve, of.1),
+                    _ => (0..512).map(uniform).collect(),
                 };
-                all.push(Series { of: (function, octaves), curve, is_hard, us, calls: Vec::new(), stack: 0 });
+                all.push(Series { of, curve, is_hard, us, calls: Vec::new(), stack: 0 });
             }
         }
     }
     all
 }
 
-/// The hard fractions of a curve, and those for which the mass is evaluated most often: the first few of 20 000, and of
-/// those around them, ever nearer.
+/// The hard fractions of a curve, and those of 20 000 for which the mass is evaluated most often.
 fn hard(curve: usize, octaves: usize) -> Vec<f32> {
     let evaluations: Box<dyn Fn(f32) -> u32> = match octaves {
         0 => evaluations::<0>(curve),
@@ -133,18 +130,7 @@ fn hard(curve: usize, octaves: usize) -> Vec<f32> {
     let tail = |rng: &mut Rng| (rng.unit() * 2f64.powf(-24.0 * rng.unit())) as f32;
     let hard = CURVES[curve].hard.to_vec();
     let mut us: Vec<_> = (0..20_000).map(|i| if i % 2 == 0 { tail(&mut rng) } else { 1.0 - tail(&mut rng) }).collect();
-    us.extend(&hard);
-    for reach in [65536.0, 8192.0, 1024.0, 128.0, 16.0, 0.0] {
-        us.sort_by_cached_key(|u| (Reverse(evaluations(*u)), u.to_bits()));
-        us.dedup();
-        us.truncate(32);
-        let around = us.iter().flat_map(|u| [*u; 400]).map(|u| {
-            let steps = rng.between(-reach, reach) as i32;
-            f32::from_bits(u.to_bits().saturating_add_signed(steps))
-        });
-        let around: Vec<f32> = around.filter(|u| *u <= 1.0).collect();
-        us.extend(around);
-    }
+    us.sort_by_cached_key(|u| Reverse(evaluations(*u)));
     us.truncate(32);
     us.extend(hard);
     us.truncate(MOST);

@@ -8,11 +8,11 @@ use crate::firmware::{IMAFC, IMC, M0, M4F, M33, folder, made_with};
 use crate::measure::{Measured, Of};
 
 use measured::Function::{
-    Cdf, Construct, InverseCdf, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm, SqrtMicromath, Static, Table, Tick,
+    Cdf, Construct, InverseCdf, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm, Static, Table, Tick,
 };
 
 /// The calls as the reader knows them; the last are the baselines.
-const CALLS: [(&str, Of); 13] = [
+const CALLS: [(&str, Of); 12] = [
     ("`inverse_cdf`", (InverseCdf, DEFAULT)),
     ("`inverse_cdf` of a `static`", (Static, DEFAULT)),
     ("`inverse_cdf`, `OCTAVES = 0`", (InverseCdf, 0)),
@@ -24,7 +24,6 @@ const CALLS: [(&str, Of); 13] = [
     ("Newton, nearer end", (NearerEnd, DEFAULT)),
     ("linear table of 256", (Table, DEFAULT)),
     ("`libm::sqrtf`", (SqrtLibm, DEFAULT)),
-    ("`micromath` `sqrt`", (SqrtMicromath, DEFAULT)),
     ("the FPU's square root", (SqrtFpu, DEFAULT)),
 ];
 
@@ -91,7 +90,7 @@ fn data_bytes((function, octaves): Of) -> Option<usize> {
     Some(match function {
         NearerEnd => size_of::<baseline::NearerEnd>(),
         Table => size_of::<InverseTable<256>>(),
-        SqrtLibm | SqrtMicromath | SqrtFpu => size_of::<StraightRamps>(),
+        SqrtLibm | SqrtFpu => size_of::<StraightRamps>(),
         _ => CURVE_BYTES[OCTAVES.iter().position(|count| *count == octaves)?],
     })
 }

@@ -42,10 +42,8 @@ struct Step {
     address: u32,
     length: u32,
     cost: Cost,
-    /// The first address of its function, and its size.
-    function: (u32, u32),
-    /// Is its function one whose calls are counted?
-    is_counted: bool,
+    /// The first address of its function, its size, and whether its calls are counted.
+    function: (u32, u32, bool),
 }
 
 /// Runs a program and counts each call of its functions `the_call`, in order.
@@ -58,10 +56,9 @@ pub fn run(core: Core, elf: &Path, input: File) -> Result<Run> {
         functions.insert(symbol.address() as u32 & !1, (symbol.size() as u32, symbol.name()?.contains("8the_call")));
     }
     let step = |line: &str| {
-        let mut step = Step::new(line, core == M4F)?;
+        let step = Step::new(line, core == M4F)?;
         let (start, (size, is_counted)) = functions.range(..=step.address).next_back()?;
-        (step.function, step.is_counted) = ((*start, *size), *is_counted);
-        Some(step)
+        Some(Step { function: (*start, *size, *is_counted), ..step })
     };
 
     let mut child = core.start(elf, Some(input), &["-d", "in_asm,exec,nochain"])?;
@@ -156,13 +153,13 @@ impl Replay {
                 self.run.calls.push(*call);
                 self.call = None;
             } else if step.function != last.function {
-                self.run.ran.entry(call.called).or_default().extend([step.function]);
+                self.run.ran.entry(call.called).or_default().insert(step.function.0, step.function.1);
             }
-        } else if step.is_counted && step.address == step.function.0 {
+        } else if step.function.2 && step.address == step.function.0 {
             let call = Call { called: step.address, ..Call::default() };
             self.call = Some((call, last.address + last.length));
             (self.before, self.fetch) = (Cost::default(), Fetch::default());
-            self.run.ran.entry(call.called).or_default().extend([step.function]);
+            self.run.ran.entry(call.called).or_default().insert(step.function.0, step.function.1);
         }
     }
 }

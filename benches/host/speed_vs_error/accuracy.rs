@@ -1,6 +1,6 @@
 //! The error of every method.
 
-use crate::methods::{METHODS, Method, leaf};
+use crate::methods::{Inverse, METHODS, Method, curve};
 use crate::support::aimed::{FAMILIES, aimed, aimed_us};
 use crate::support::cases::{CASES, Case};
 use crate::support::curves::{Kind, Rng, hard_us, named, random_typical};
@@ -9,17 +9,20 @@ use crate::support::promise::LEAST_FRACTION;
 
 const SEED: u64 = 4;
 
-/// One method's figures over all curves.
+/// One method's errors.
 #[derive(Clone, Default)]
-pub struct Figures {
-    /// On how many curves it was measured.
+pub struct Errors {
+    /// How many typical curves it serves.
     pub curves: usize,
-    /// The greatest |t - exact| in ulp(t).
+    /// On these the greatest |t - exact| in ulp(t).
     pub forward: f64,
-    /// The greatest error as a fraction of the interval, and the mean of those at uniform fractions.
-    pub of_interval: (f64, f64),
+    /// The greatest as a fraction of the interval, and the mean of those at uniform fractions.
+    pub greatest: f64,
+    pub mean: f64,
     /// Of a million neighbouring u.
     pub steps_back: f64,
+    /// On hard curves the greatest as a fraction of the interval, beyond the rounding of the exact time to an `f32`.
+    pub hard: f64,
 }
 
 /// The named typical curves, and random ones.
@@ -33,90 +36,82 @@ fn length(curve: &Curve) -> f64 {
     f64::from(curve.close_end()) - f64::from(curve.open_start())
 }
 
-/// The time as a caller has it who mends what can be seen: NaN, and times outside the interval.
-fn mended(curve: &Curve, t: f32) -> f32 {
-    if t >= curve.open_start() { t.min(curve.close_end()) } else { curve.open_start() }
+/// The times as a caller has them who mends what can be seen: NaN, and times outside the interval.
+fn mended(inverse: Inverse, curve: &Curve, us: &[f32]) -> Vec<f32> {
+    let (start, end) = (curve.open_start(), curve.close_end());
+    inverse(us).into_iter().map(|t| if t >= start { t.min(end) } else { start }).collect()
 }
 
-/// Half of the samples are.
-const fn is_uniform(sample: usize) -> bool {
-    sample % 4 >= 2
+/// Uniform fractions, and as many towards both ends on a scale of octaves: where tables and absolute tolerances fail.
+fn fractions(count: usize, rng: &mut Rng) -> Vec<f32> {
+    let half = (0..count / 2).map(|_| rng.unit() as f32).collect::<Vec<_>>();
+    let tails = (0..count / 2).map(|i| {
+        let tail = ((rng.unit() * 2f64.powf(-20.0 * rng.unit())) as f32).max(LEAST_FRACTION);
+        if i % 2 == 0 { tail } else { 1.0 - tail }
+    });
+    half.into_iter().chain(tails).collect()
 }
 
-/// Of so many samples a curve, and as many neighbours of the first, on each curve that a method serves.
-pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
-    let mut all = vec![Figures::default(); METHODS.len()];
+/// Of each method, on the curves that it serves: at so many fractions of a curve, and as many neighbours of the first.
+pub fn errors(curves: &[Curve], samples: usize, hard: usize) -> Vec<Errors> {
+    let mut all = vec![Errors::default(); METHODS.len()];
     for (index, curve) in curves.iter().enumerate() {
-        let (exact, mut rng) = (Exact::new(curve), Rng::new(SEED, index as u64));
-        // Uniform, and towards both ends on a scale of octaves: where tables and absolute tolerances fail.
-        let us = (0..samples).map(|i| {
-            let u = rng.unit();
-            let tail = ((u * 2f64.powf(-20.0 * rng.unit())) as f32).max(LEAST_FRACTION);
-            if is_uniform(i) {
-                u as f32
-            } else if i % 4 == 0 {
-                tail
-            } else {
-                1.0 - tail
-            }
-        });
-        let us: Vec<_> = us.map(|u| (u, exact.inverse_cdf(u))).collect();
-        let first = us[0].0.min(0.999).to_bits();
-        for (method, figures) in METHODS.iter().zip(&mut all) {
+        let exact = Exact::new(curve);
+        let us = fractions(samples, &mut Rng::new(SEED, index as u64));
+        let truths: Vec<_> = us.iter().map(|u| exact.inverse_cdf(*u)).collect();
+        let first = us[0].min(0.999).to_bits();
+        let neighbours: Vec<_> = (0..=samples as u32).map(|i| f32::from_bits(first + i)).collect();
+        for (method, errors) in METHODS.iter().zip(&mut all) {
             let Some(inverse) = (method.build)(curve) else { continue };
-            figures.curves += 1;
-            for (i, &(u, truth)) in us.iter().enumerate() {
-                let t = mended(curve, inverse.inverse_cdf(u));
+            errors.curves += 1;
+            let times = inverse(&neighbours);
+            errors.steps_back += times.windows(2).filter(|pair| pair[1] < pair[0]).count() as f64;
+            for (i, (t, truth)) in mended(inverse, curve, &us).into_iter().zip(&truths).enumerate() {
                 let error = (f64::from(t) - truth.hi).abs() / length(curve);
-                figures.of_interval.0 = figures.of_interval.0.max(error);
-                figures.of_interval.1 += if is_uniform(i) { error } else { 0.0 };
+                errors.greatest = errors.greatest.max(error);
+                errors.mean += if i < samples / 2 { error } else { 0.0 };
                 // No error is relative to a time of 0.
                 if truth.hi != 0.0 {
-                    figures.forward = figures.forward.max(exact.forward_ulp(t, truth));
+                    errors.forward = errors.forward.max(exact.forward_ulp(t, *truth));
                 }
             }
-            let neighbours = (0..=samples as u32).map(|i| f32::from_bits(first + i));
-            let times: Vec<f32> = neighbours.map(|u| inverse.inverse_cdf(u)).collect();
-            figures.steps_back += times.windows(2).filter(|pair| pair[1] < pair[0]).count() as f64;
         }
     }
-    for figures in &mut all {
-        let count = (figures.curves * samples) as f64;
-        figures.of_interval.1 /= 0.5 * count;
-        figures.steps_back *= 1e6 / count;
+    for errors in &mut all {
+        let count = (errors.curves * samples) as f64;
+        errors.mean /= 0.5 * count;
+        errors.steps_back *= 1e6 / count;
     }
+    on_hard_curves(hard, &mut all);
     all
 }
 
 /// The greatest error of what firmware asks, frames of up to 64 triggers of a leaf shutter, as a fraction of the
 /// interval.
 pub fn of_triggers(method: &Method) -> Option<f64> {
-    let curve = leaf();
-    let (inverse, exact) = ((method.build)(&curve)?, Exact::new(&curve));
-    let frames = (1..=64).flat_map(|n| (0..n).map(move |i| (i as f32 + 0.5) / n as f32));
-    let error = |u| (f64::from(inverse.inverse_cdf(u)) - exact.inverse_cdf(u).hi).abs() / length(&curve);
-    Some(frames.map(error).fold(0.0, f64::max))
+    let curve = curve("dslr_leaf");
+    let exact = Exact::new(&curve);
+    let us: Vec<_> = (1..=64).flat_map(|n| (0..n).map(move |i| (i as f32 + 0.5) / n as f32)).collect();
+    let times = (method.build)(&curve)?(&us);
+    let errors = us.iter().zip(times).map(|(u, t)| (f64::from(t) - exact.inverse_cdf(*u).hi).abs() / length(&curve));
+    Some(errors.fold(0.0, f64::max))
 }
 
-/// Each method's greatest error on so many hard curves that it serves, the hard cases first, and then curves that meet
-/// difficulties exactly: beyond the rounding of the exact time to an `f32`, as a fraction of the interval.
-pub fn of_hard_curves(count: usize) -> Vec<f64> {
-    let errors = (0..count).map(|i| {
-        let rng = &mut Rng::new(1, i as u64);
+/// The hard cases first, and then curves that meet difficulties exactly.
+fn on_hard_curves(count: usize, all: &mut [Errors]) {
+    for i in 0..count {
         let curve = CASES.get(i).map_or_else(|| aimed(i % FAMILIES.len(), 1, i as u64), Case::curve);
         let exact = Exact::new(&curve);
+        let rng = &mut Rng::new(1, i as u64);
         let mut us = if i < CASES.len() { hard_us(&exact, SEED, 400) } else { aimed_us(&exact, rng) };
         us.retain(|u| *u == 0.0 || *u >= LEAST_FRACTION);
         let truths: Vec<_> = us.iter().map(|u| exact.inverse_cdf(*u).hi).collect();
-        let worst = METHODS.iter().map(|method| {
-            let Some(inverse) = (method.build)(&curve) else { return 0.0 };
-            let errors = us.iter().zip(&truths).map(|(u, truth)| {
-                let [low, high] = rounding_cell(mended(&curve, inverse.inverse_cdf(*u)));
-                (low - truth).max(truth - high)
-            });
-            errors.fold(0.0, f64::max) / length(&curve)
-        });
-        worst.collect::<Vec<_>>()
-    });
-    errors.reduce(|a, b| a.into_iter().zip(b).map(|(a, b)| a.max(b)).collect()).unwrap_or_default()
+        for (method, errors) in METHODS.iter().zip(&mut *all) {
+            let Some(inverse) = (method.build)(&curve) else { continue };
+            for (t, truth) in mended(inverse, &curve, &us).into_iter().zip(&truths) {
+                let [low, high] = rounding_cell(t);
+                errors.hard = errors.hard.max((low - truth).max(truth - high) / length(&curve));
+            }
+        }
+    }
 }

@@ -4,39 +4,31 @@
 use rayon::prelude::*;
 use shutter_curve::ShutterCurve;
 
-use crate::report::{number, table};
 use crate::support::cases::{CASES, DIM, shutter};
 use crate::support::oracle::{Curve, Exact};
 use crate::support::promise::{CDF_FLOOR, DENSITY_FLOOR};
 
 const CURVES: [&str; 5] = ["ends of order p^6", "handles cross by 15/16", "a vertical step", "times from -1 to 1", DIM];
 
-/// The `f32` that a thread takes at a time, and a prime: of so many the oracle judges one.
-const CHUNK: i64 = 1 << 22;
+/// A prime: of so many answers the oracle judges one.
 const JUDGED: i64 = 65_537;
 
 /// A function's name, how it answers, and by how many ulp an answer is off.
 type Function = (&'static str, fn(&ShutterCurve, f32) -> f32, fn(&Exact, f32, f32) -> f64);
 
 const FUNCTIONS: [Function; 3] = [
-    ("`inverse_cdf`", ShutterCurve::inverse_cdf, |exact, u, t| exact.judge(u, t).backward),
-    ("`cdf`", ShutterCurve::cdf, |exact, t, cdf| exact.near(t).cdf_ulp(cdf, CDF_FLOOR)),
-    ("`openness`", ShutterCurve::openness, |exact, t, f| exact.near(t).openness_ulp(f, DENSITY_FLOOR)),
+    ("inverse_cdf", ShutterCurve::inverse_cdf, |exact, u, t| exact.judge(u, t).backward),
+    ("cdf", ShutterCurve::cdf, |exact, t, cdf| exact.near(t).cdf_ulp(cdf, CDF_FLOOR)),
+    ("openness", ShutterCurve::openness, |exact, t, f| exact.near(t).openness_ulp(f, DENSITY_FLOOR)),
 ];
 
-/// The sweeps as a table.
-pub fn every_f32() -> String {
-    let cases = CURVES.map(|name| CASES.iter().find(|case| case.name == name).expect("a case"));
-    let sweeps = FUNCTIONS.iter().flat_map(|function| cases.iter().map(move |case| (function, case)));
-    let rows = sweeps.map(|(function, case)| {
-        eprintln!("{} of {} ...", function.0, case.name);
-        let [answers, out_of_range, steps_back, error] = sweep(function, &case.curve());
-        // The openness may fall.
-        let steps_back = if function.0 == "`openness`" { "-".into() } else { steps_back.to_string() };
-        let counts = [answers.to_string(), out_of_range.to_string(), steps_back, number(error)];
-        [function.0, case.name].map(String::from).into_iter().chain(counts).collect()
-    });
-    table("function | curve | answers | out of range | steps back | error, ulp", rows)
+/// Prints a line for each sweep. An openness may fall.
+pub fn every_f32() {
+    for (function, name) in FUNCTIONS.iter().flat_map(|function| CURVES.map(|name| (function, name))) {
+        let case = CASES.iter().find(|case| case.name == name).expect("a case");
+        let [out_of_range, falls, error] = sweep(function, &case.curve());
+        println!("{} of {name}: {out_of_range} out of range, {falls} falls, error {error:.3} ulp", function.0);
+    }
 }
 
 /// The `f32` in order: 0 for 0, and from there up and down.
@@ -50,28 +42,22 @@ fn at(place: i64) -> f32 {
     if place < 0 { -size } else { size }
 }
 
-/// Asks for every `f32` for which a function is: the answers, those out of range, the steps back, the greatest error.
-fn sweep((name, answer, error): &Function, curve: &Curve) -> [f64; 4] {
+/// Asks for every `f32` for which a function is: the answers out of range, those below the one ahead, the greatest error.
+fn sweep((name, answer, error): &Function, curve: &Curve) -> [f64; 3] {
     let (ours, exact) = (shutter::<8>(curve), Exact::new(curve));
     let (fractions, times) = ([0.0, 1.0], [curve.open_start(), curve.close_end()]);
-    let (inputs, outputs) = if *name == "`inverse_cdf`" { (fractions, times) } else { (times, fractions) };
+    let (inputs, outputs) = if *name == "inverse_cdf" { (fractions, times) } else { (times, fractions) };
     let [first, last] = inputs.map(place);
-    let part = |from: i64| {
-        let to = last.min(from + CHUNK - 1);
-        // From the neighbour below, so that no pair is left out between two parts.
-        let mut before = answer(&ours, at(first.max(from - 1)));
-        let [mut out_of_range, mut steps_back, mut worst] = [0.0; 3];
-        for place in from..=to {
+    // The answer ahead, of a thread's first from there again, and the counts.
+    let parts = (first..=last).into_par_iter().fold(
+        || (None, [0.0; 3]),
+        |(ahead, [out_of_range, falls, worst]), place| {
             let answered = answer(&ours, at(place));
-            out_of_range += f64::from(!(outputs[0]..=outputs[1]).contains(&answered));
-            steps_back += f64::from(answered < before);
-            before = answered;
-            if place % JUDGED == 0 {
-                worst = f64::max(worst, error(&exact, at(place), answered));
-            }
-        }
-        [(to - from + 1) as f64, out_of_range, steps_back, worst]
-    };
-    let parts = (0..=(last - first) / CHUNK).into_par_iter().map(|i| part(first + i * CHUNK));
-    parts.reduce(|| [0.0; 4], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3].max(b[3])])
+            let ahead = ahead.unwrap_or_else(|| answer(&ours, at(first.max(place - 1))));
+            let is_out = !(outputs[0]..=outputs[1]).contains(&answered);
+            let error = if place % JUDGED == 0 { error(&exact, at(place), answered) } else { 0.0 };
+            (Some(answered), [out_of_range + f64::from(is_out), falls + f64::from(answered < ahead), worst.max(error)])
+        },
+    );
+    parts.map(|(_, counts)| counts).reduce(|| [0.0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2].max(b[2])])
 }

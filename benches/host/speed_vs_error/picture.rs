@@ -5,7 +5,7 @@ use chart::plotters::style::text_anchor::{HPos, VPos};
 use chart::{Area, Axis, BLUE, FAINT, GREY, Graph, INK, SCALE, VERMILION, axes, pen, picture};
 
 use crate::Result;
-use crate::methods::{Kind, METHODS};
+use crate::methods::METHODS;
 use crate::report::Measured;
 
 /// Where the methods' names are, beside the dots of their greatest errors: apart where two dots come close.
@@ -17,16 +17,14 @@ const NAMES: [(i32, i32, HPos); METHODS.len()] = [
     (0, 59, HPos::Center),
     (-9, -5, HPos::Right),
     (-14, 54, HPos::Center),
-    (9, 0, HPos::Left),
     (-9, 10, HPos::Right),
 ];
 
-/// A power of ten.
+/// A power of ten, of 1 or less.
 fn power(exponent: f64) -> String {
-    let raised = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    match exponent.round() as i32 {
-        0 => "1".into(),
-        n => format!("10{}{}", if n < 0 { "⁻" } else { "" }, raised[n.unsigned_abs() as usize]),
+    match "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(-exponent.round() as usize) {
+        None | Some('⁰') => "1".into(),
+        Some(raised) => format!("10⁻{raised}"),
     }
 }
 
@@ -34,16 +32,13 @@ fn power(exponent: f64) -> String {
 /// sample costs.
 pub fn frontier(measured: &Measured) -> Result<String> {
     let title = "Error against time and against cycles: this crate and its peers";
-    let svg = picture((1240, 520), title, |page| {
+    picture((1240, 520), title, |page| {
         let areas = page.split_evenly((1, 2));
         panel(&areas[0], "nanoseconds a sample on the host, soft curve", &measured.times, measured)?;
-        let cycles =
-            panel(&areas[1], "mean cycles a sample on a Cortex-M4F (model), soft curve", &measured.cycles, measured);
+        let cycles = "mean cycles a sample on a Cortex-M4F (model), soft curve";
         // Where there is room.
-        legend(&mut cycles?)
-    })?;
-    // What is said of each dot and is so without being said.
-    Ok(svg.replace(" stroke=\"none\" stroke-width=\"1\"/>", "/>").replace(" opacity=\"1\"", ""))
+        legend(&mut panel(&areas[1], cycles, &measured.cycles, measured)?)
+    })
 }
 
 fn panel<'a, 'b>(area: &'a Area<'b>, name: &str, costs: &[f64], measured: &Measured) -> Result<Graph<'a, 'b>> {
@@ -55,21 +50,17 @@ fn panel<'a, 'b>(area: &'a Area<'b>, name: &str, costs: &[f64], measured: &Measu
     let y =
         Axis { range: -9.5..0.5, name: Some("error, as a share of the interval"), labels: 6, label: &|y| power(*y) };
     let mut graph = axes(area, x, y, 62)?;
-    for (((method, figures), cost), (dx, dy, h)) in METHODS.iter().zip(&measured.figures).zip(costs).zip(NAMES) {
-        let color = match method.kind {
-            Kind::Ours => BLUE,
-            Kind::General => VERMILION,
-            Kind::Root => GREY,
-        };
-        let errors = [figures.of_interval.0, figures.of_interval.1];
-        let [most, mean] = errors.map(|error| (cost.log2(), error.max(1e-10).log10()));
+    for (((method, errors), cost), (dx, dy, h)) in METHODS.iter().zip(&measured.errors).zip(costs).zip(NAMES) {
+        let color = method.color;
+        let [most, mean] = [errors.greatest, errors.mean].map(|error| (cost.log2(), error.max(1e-10).log10()));
         graph.draw_series([PathElement::new([most, mean], color.mix(0.4).stroke_width(2 * SCALE as u32))])?;
         graph.draw_series([
             Circle::new(most, 5 * SCALE, color.filled()),
             Circle::new(mean, 4 * SCALE, pen(color, 2.0)),
         ])?;
         let text = chart::text(13 * SCALE, h, VPos::Center);
-        let name = Text::new(method.name.replace('`', ""), (dx * SCALE, dy * SCALE), text);
+        let name = method.name.replace('`', "").replace("inverse_cdf, ", "");
+        let name = Text::new(name, (dx * SCALE, dy * SCALE), text);
         graph.draw_series([EmptyElement::at(most) + name])?;
     }
     Ok(graph)

@@ -1,28 +1,33 @@
 //! The report's text.
 
-use crate::Result;
-use crate::accuracy::{Figures, of_triggers};
-use crate::methods::{CURVES, METHODS};
+use crate::accuracy::{self, Errors, of_triggers};
+use crate::methods::METHODS;
+use crate::{Result, timing};
 
-/// Everything measured; of the methods in their order.
+/// Everything measured, of the methods in their order.
 pub struct Measured {
-    pub curves: usize,
-    pub samples: usize,
-    /// How many hard curves there were, and the methods' errors on them.
-    pub hard: (usize, Vec<f64>),
-    pub figures: Vec<Figures>,
+    samples: usize,
+    hard: usize,
+    pub errors: Vec<Errors>,
     pub times: Vec<f64>,
     /// Mean cycles of a Cortex-M4F.
     pub cycles: Vec<f64>,
 }
 
-/// The methods' mean cycles, as the page of costs has them.
-pub fn cycles(cost: &str) -> Result<Vec<f64>> {
+impl Measured {
+    /// On so many random and so many hard curves; the cycles are those of the page of costs.
+    pub fn new(random: u64, samples: usize, hard: usize, repeats: usize, cost: &str) -> Result<Self> {
+        let errors = accuracy::errors(&accuracy::curves(random), samples, hard);
+        Ok(Self { samples, hard, errors, times: timing::times(repeats), cycles: cycles(cost)? })
+    }
+}
+
+fn cycles(cost: &str) -> Result<Vec<f64>> {
     let rows: Vec<Vec<_>> = cost.lines().map(|line| line.split(" | ").collect()).collect();
     let cycles = METHODS.iter().map(|method| {
         let head = rows.iter().find(|row| row[0] == "| call")?;
-        let column = head.iter().position(|name| *name == CURVES[method.curve()][0])?;
-        let row = rows.iter().find(|row| row[0] == format!("| {}", method.cost))?;
+        let column = head.iter().position(|name| *name == method.costs_on())?;
+        let row = rows.iter().find(|row| row[0] == format!("| {}", method.name))?;
         row.get(column)?.parse().ok()
     });
     cycles.collect::<Option<_>>().ok_or_else(|| "cost.md lacks a method's cycles".into())
@@ -53,12 +58,10 @@ pub fn table(header: &str, rows: impl IntoIterator<Item = Vec<String>>) -> Strin
 }
 
 pub fn methods(measured: &Measured) -> String {
-    let rows = METHODS.iter().enumerate().map(|(i, method)| {
-        let Figures { forward, of_interval, steps_back, .. } = measured.figures[i];
+    let rows = METHODS.iter().zip(&measured.errors).zip(&measured.times).map(|((method, errors), time)| {
         let triggers = of_triggers(method).map_or_else(|| "-".into(), number);
-        let time = format!("{:.1}", measured.times[i]);
-        let errors = [forward, of_interval.0, measured.hard.1[i], steps_back].map(number);
-        [method.name.into(), time].into_iter().chain(errors).chain([triggers]).collect()
+        let errors = [errors.forward, errors.greatest, errors.hard, errors.steps_back].map(number);
+        [method.name.into(), format!("{time:.1}")].into_iter().chain(errors).chain([triggers]).collect()
     });
     table("method | ns | ulp(t) | of the interval | hard curves | steps back | a leaf's triggers", rows)
 }
@@ -89,26 +92,13 @@ the nearer end, NaN as the start. Square roots are judged on the {straight} stra
 - *hard curves*: error as a share of the interval, beyond the rounding of the time to an `f32`, on {hard} curves that
   are hard or meet difficulties exactly (`tests/support/cases.rs`, `aimed.rs`), at some 100 hard `u` each
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
-- *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`
+- *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the leaf shutter of `tests/data/curves.csv`
 ",
         table = methods(measured),
         arch = std::env::consts::ARCH,
-        curves = measured.curves,
+        curves = measured.errors[0].curves,
         samples = measured.samples,
-        hard = measured.hard.0,
-        straight = measured.figures.last().map_or(0, |figures| figures.curves),
-    )
-}
-
-pub fn every_f32(table: &str) -> String {
-    format!(
-        "# Every f32
-
-Written by `cargo bench -- --every-f32`, in half an hour. It asks for the inverse of all `f32`
-in [0, 1], and for `cdf` and `openness` at all times of a curve. The oracle judges one answer in 65 537: errors are
-backward for the inverse, else those at the best time within an ulp.
-
-{table}
-"
+        hard = measured.hard,
+        straight = measured.errors[METHODS.len() - 1].curves,
     )
 }

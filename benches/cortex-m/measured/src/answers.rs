@@ -2,7 +2,6 @@
 //! asked, so that what must not panic is just this.
 
 use core::hash::{Hash, Hasher};
-use core::hint::black_box;
 
 use shutter_curve::{CubicBezier, Hz, Pulse, ShutterCurve};
 
@@ -31,10 +30,6 @@ impl Hasher for Fnv {
 }
 
 impl Fnv {
-    const fn new() -> Self {
-        Self(0xCBF2_9CE4_8422_2325)
-    }
-
     fn add(&mut self, values: impl IntoIterator<Item: Hash>) {
         values.into_iter().for_each(|value| value.hash(self));
     }
@@ -44,19 +39,16 @@ impl Fnv {
     }
 
     /// What was made, or else why not.
-    fn made<T, E: Hash + PartialEq + Copy>(&mut self, made: Result<T, E>) -> Option<T> {
-        made.map_err(|error| self.add((error == black_box(error)).then_some(error))).ok()
+    fn made<T, E: Hash>(&mut self, made: Result<T, E>) -> Option<T> {
+        made.map_err(|error| self.add([error])).ok()
     }
 
     /// All that an iterator of the crate does.
-    fn all<I, T: Hash>(&mut self, all: I, as_hashed: impl Fn(I::Item) -> T)
-    where
-        I: DoubleEndedIterator + ExactSizeIterator + Clone,
-    {
+    fn all<T: Hash>(&mut self, all: impl DoubleEndedIterator<Item = T> + ExactSizeIterator + Clone) {
         let mut ends = all.clone();
         let some = [ends.nth(2), ends.nth_back(2), ends.next_back(), all.clone().last()];
         self.add([all.len() as u32]);
-        self.add(some.into_iter().flatten().chain(all).map(as_hashed));
+        self.add(some.into_iter().flatten().chain(all));
     }
 }
 
@@ -67,33 +59,29 @@ const ODD: [f32; 12] = {
     [f32::NAN, NONE, -NONE, -1.0, 2.0, max, -max, least, 1e-45, -0.0, 1.0, below_1]
 };
 
-/// For every number of octaves that is measured, 0, 4, 8 and 16, the hash of the answers of every fourth curve of the
-/// data, built where this runs, with every hard input, as many uniform ones and odd ones; and of what is said to curves
-/// that are none.
-///
-/// Each curve has one number of octaves, since an emulated processor without floats takes minutes for all.
+/// The hash of all that is made of two ramps; of fractions, these beside others.
+type Of = fn([Ramp; 2], &[f32]) -> u64;
+/// By the number of octaves: 0, 4, 8, 16.
+const OF: [Of; 4] = [of::<0>, of::<4>, of::<8>, of::<16>];
+
+/// For each of these numbers of octaves the hash of the answers of every fourth curve of the data, built where this
+/// runs: an emulated processor without floats takes minutes for all.
 pub fn hashes() -> [u64; 4] {
-    let mut all = [refusals(), 0, 0, 0];
+    let mut all = [0; 4];
     for (curve, i) in CURVES.iter().zip((0..4).cycle()) {
         let more = OF[i]([curve.opening, curve.closing], curve.hard);
-        all[i] = all[i].rotate_left(1) ^ more;
+        all[i] = u64::rotate_left(all[i], 1) ^ more;
     }
     all
 }
-
-/// The hash of all that is made of two ramps; of fractions, these beside others.
-type Of = fn([Ramp; 2], &[f32]) -> u64;
-/// By the number of octaves.
-const OF: [Of; 4] = [of::<0>, of::<4>, of::<8>, of::<16>];
 
 pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
     OF.map(|of| of(ramps, us))
 }
 
 fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
-    let hash = &mut Fnv::new();
+    let hash = &mut Fnv(0xCBF2_9CE4_8422_2325);
     let [opening, closing] = ramps.map(CubicBezier::new);
-    hash.add([opening == closing]);
     if let Some(curve) = hash.made(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
         answers(hash, &curve, us.iter().copied().chain((0..512).map(uniform)).chain(ODD));
         for odd in ODD {
@@ -112,22 +100,27 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let times = [a, b, c, d];
     let (opening, closing) = CubicBezier::shutteropening(times, inner);
     let lines = (CubicBezier::line((a, 0.0), (b, 1.0)), CubicBezier::line((c, 1.0), (d, 0.0)));
+    for (opening, closing) in [(opening, closing), lines, (lines.0, closing)] {
+        if let Some(curve) = hash.made(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
+            answers(hash, &curve, (0..16).map(uniform));
+        }
+    }
     if OCTAVES == DEFAULT {
-        for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)] {
+        let densities = [0.5, 1e-7, 2.0].map(|by| ShutterCurve::density(opening.scaled(by)));
+        let forms = [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)];
+        for curve in forms.into_iter().chain(densities).chain([ShutterCurve::new(opening, lines.1)]) {
             let curve = hash.made(curve);
             hash.add(curve.map(|curve| curve.direct_triggers()));
         }
-        let mixed = hash.made(ShutterCurve::new(opening, lines.1));
-        hash.floats(mixed.map(|curve| curve.exposure()));
-        for by in [0.5, 1e-7, 2.0] {
-            let density = hash.made(ShutterCurve::density(opening.scaled(by)));
-            hash.floats(density.map(|curve| curve.normalization()));
-        }
-    }
-    for (opening, closing) in [(opening, closing), lines, (lines.0, closing)] {
-        if let Some(curve) = hash.made(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
-            hash.add([curve == black_box(curve.clone())]);
-            answers(hash, &curve, (0..16).map(uniform));
+        // Curves that are none, or only just: each number is odd in turn.
+        for (place, odd) in (0..16).flat_map(|place| ODD.map(|odd| (place, odd))) {
+            let mut ramps = ramps;
+            for (t, f) in ramps.as_flattened_mut().iter_mut().skip(place / 2).take(1) {
+                *(if place % 2 == 0 { t } else { f }) = odd;
+            }
+            let [opening, closing] = ramps.map(CubicBezier::new);
+            let curve = hash.made(ShutterCurve::<0>::with_octaves(opening, closing));
+            hash.floats(curve.map(|curve| curve.exposure()));
         }
     }
     hash.finish()
@@ -154,18 +147,19 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
         let any = timed.min_gap(0).min_pulse(0);
         if let Some(ticks) = hash.made(any.trigger_ticks(n)) {
             hash.add([ticks.is_direct(2)]);
-            hash.all(ticks, |tick| tick);
+            hash.all(ticks);
         }
         for duty in [0.5, 1.0, 1e-6, 0.0, f32::NAN] {
             if let Some(pulses) = hash.made(any.pulse_ticks(n, duty)) {
-                hash.all(pulses, |pulse| pulse);
+                hash.all(pulses);
             }
         }
         let mut pulses = [Pulse::default(); 9];
         let limited = timed.min_pulse(3).min_gap(7);
         hash.made(limited.pulses_into(&mut pulses, 0.3));
         hash.add(pulses);
-        hash.add([limited.pulse_ticks(n, 0.3).is_ok()]);
+        let pulses = hash.made(limited.pulses::<3>(0.3));
+        hash.add(pulses.into_iter().flatten());
         // The third is a gap that a part of the triggers would keep.
         for gap in [0, 7, (curve.exposure() * hz as f32 / 9.5) as u32, u32::MAX] {
             let (mut ticks, timed) = ([0; 20], timed.min_gap(gap));
@@ -175,25 +169,7 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
             hash.add(ticks.into_iter().flatten());
             let planned = hash.made(timed.ticks_vec::<64>(n));
             hash.add(planned.iter().flatten());
-            hash.add([timed.trigger_ticks(n).is_ok()]);
             hash.add([timed.max_triggers(n)]);
         }
     }
-}
-
-/// What is said to curves that are none, or only just: plain ramps, each number of which is odd in turn.
-fn refusals() -> u64 {
-    let hash = &mut Fnv::new();
-    let opening = [(0.0, 0.0), (0.02, 0.0), (0.04, 1.0), (0.99999994, 1.0)];
-    let closing = [(2.0, 1.0), (2.96, 1.0), (2.98, 0.0), (3.0, 0.0)];
-    for (place, odd) in (0..16).flat_map(|place| ODD.map(|odd| (place, odd))) {
-        let mut ramps = [opening, closing];
-        let (t, f) = &mut ramps[place / 8][place / 2 % 4];
-        *(if place % 2 == 0 { t } else { f }) = odd;
-        let [opening, closing] = ramps.map(CubicBezier::new);
-        let curve = hash.made(ShutterCurve::<0>::with_octaves(opening, closing));
-        hash.floats(curve.map(|curve| curve.exposure()));
-    }
-    hash.made(ShutterCurve::linear(1e9, 1e9, 1e9, 1e9 + 64.0));
-    hash.finish()
 }

@@ -58,11 +58,11 @@ macro_rules! functions {
         pub const FUNCTIONS: &[Function] = &[$(Function::$name),*];
     };
 }
-functions! { InverseCdf Static Cdf Openness Tick Schedule Construct NearerEnd Table SqrtLibm SqrtMicromath SqrtFpu }
+functions! { InverseCdf Static Cdf Openness Tick Schedule Construct NearerEnd Table SqrtLibm SqrtFpu }
 
 impl Function {
     pub fn is_for_straight_ramps(self) -> bool {
-        matches!(self, Self::SqrtLibm | Self::SqrtMicromath | Self::SqrtFpu)
+        matches!(self, Self::SqrtLibm | Self::SqrtFpu)
     }
 }
 

@@ -1,11 +1,11 @@
-//! Where a program runs: on one of QEMU's boards with an Arm core; for other processors in QEMU's user mode, as a Linux
-//! program by system calls alone. It starts in the program's `run` and panics in its `panicked`.
+//! Where a program runs: on one of QEMU's boards with an Arm core, or in QEMU's user mode, by semihosting; on s390x, which
+//! has none, by system calls of Linux. It starts in the program's `run` and panics in its `panicked`.
 #![allow(dead_code, unreachable_code, unused_imports, reason = "a program needs a part, and some run for ever")]
 
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;
 
-pub use on::{In, write};
+pub use on::*;
 
 /// What is printed.
 pub struct Out;
@@ -28,13 +28,18 @@ fn panic(info: &PanicInfo) -> ! {
     crate::panicked(info)
 }
 
-#[cfg(target_arch = "arm")]
+#[cfg(not(target_arch = "s390x"))]
 mod on {
     use semihosting::fs::File;
     use semihosting::io::{Read, Write, stdout};
     use semihosting::process::ExitCode;
 
-    #[cortex_m_rt::entry]
+    // Linux aligns the stack.
+    #[cfg(target_arch = "riscv32")]
+    core::arch::global_asm!(".globl _start", "_start: call main");
+
+    #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
+    #[cfg_attr(target_arch = "riscv32", unsafe(no_mangle))]
     fn main() -> ! {
         crate::run();
         exit(true)
@@ -62,34 +67,16 @@ mod on {
     }
 }
 
-#[cfg(not(target_arch = "arm"))]
+#[cfg(target_arch = "s390x")]
 mod on {
     use syscalls::{Sysno, syscall};
 
-    // Linux aligns the stack; what a function expects beside that differs.
-    #[cfg(target_arch = "riscv32")]
-    core::arch::global_asm!(".globl _start", "_start: call started");
-    #[cfg(target_arch = "s390x")]
-    core::arch::global_asm!(".globl _start", "_start: aghi %r15, -160", "brasl %r14, started");
+    core::arch::global_asm!(".globl _start", "_start: aghi %r15, -160", "brasl %r14, main");
 
     #[unsafe(no_mangle)]
-    extern "C" fn started() -> ! {
+    fn main() -> ! {
         crate::run();
         exit(true)
-    }
-
-    pub struct In;
-
-    impl In {
-        pub fn new() -> Self {
-            Self
-        }
-
-        pub fn read(&mut self, bytes: &mut [u8]) -> usize {
-            let (to, length) = (bytes.as_mut_ptr(), bytes.len());
-            // SAFETY: `stdin` gives at most so many bytes, and they belong there.
-            unsafe { syscall!(Sysno::read, 0, to, length) }.expect("it can be read")
-        }
     }
 
     pub fn write(bytes: &[u8]) {

@@ -6,8 +6,10 @@
 //! series follows: its function, its octaves, its curve, and how many fractions it has; then these.
 #![no_std]
 #![no_main]
-#![cfg_attr(bare, feature(core_intrinsics), allow(internal_features))]
+#![feature(core_float_math)]
 
+// The processor's, or else that of the compiler's library.
+use core::f32::math::sqrt;
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 
@@ -24,21 +26,6 @@ use machine::{In, panicked, write};
 #[inline(never)]
 fn the_call<A, B, O>(call: impl FnOnce(A, B) -> O, a: A, b: B) -> O {
     call(a, b)
-}
-
-/// By the processor's instruction, where it has one: `sqrt` is not in stable `core`.
-#[inline(always)]
-fn fpu_sqrt(x: f32) -> f32 {
-    #[cfg(bare)]
-    return core::intrinsics::sqrtf32(x);
-    #[cfg(not(bare))]
-    libm::sqrtf(x)
-}
-
-/// The processor's instruction, or else `libm`'s code.
-#[inline(always)]
-fn own_sqrt(x: f32) -> f32 {
-    if cfg!(any(target_abi = "eabihf", target_feature = "f")) { fpu_sqrt(x) } else { libm::sqrtf(x) }
 }
 
 /// The inverse of each typical curve, in a `static` of its own.
@@ -110,7 +97,8 @@ fn each<I: Copy, O>(inputs: &[I], mut call: impl FnMut(I) -> O) {
 type Curves<const C: usize> = [ShutterCurve<C>; CURVES.len()];
 
 /// The first run's curves; or else they are built, and written for the next.
-fn curves<'a, const C: usize>(input: &mut In, place: &'a mut MaybeUninit<Curves<C>>) -> &'a Curves<C> {
+fn curves<const C: usize>(input: &mut In) -> Curves<C> {
+    let mut place = MaybeUninit::<Curves<C>>::zeroed();
     let first = place.as_mut_ptr();
     // SAFETY: of that length, and zeroed.
     let bytes = || unsafe { core::slice::from_raw_parts_mut(first.cast(), size_of::<Curves<C>>()) };
@@ -123,7 +111,7 @@ fn curves<'a, const C: usize>(input: &mut In, place: &'a mut MaybeUninit<Curves<
         write(bytes());
     }
     // SAFETY: written here, or by the first run of this very program.
-    unsafe { place.assume_init_ref() }
+    unsafe { place.assume_init() }
 }
 
 fn by_square_roots(us: &[f32], curve: &measured::Curve, sqrt: impl Fn(f32) -> f32 + Copy) {
@@ -167,7 +155,7 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
         }
         Function::NearerEnd => {
             let newton = black_box(NearerEnd::new(data.opening, data.closing));
-            let inverse = |newton: &NearerEnd, u| newton.inverse_cdf(u, own_sqrt);
+            let inverse = |newton: &NearerEnd, u| newton.inverse_cdf(u, sqrt);
             each(us, |u| the_call(inverse, &newton, u))
         }
         Function::Table => {
@@ -175,17 +163,13 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
             each(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
         }
         Function::SqrtLibm => by_square_roots(us, data, libm::sqrtf),
-        Function::SqrtMicromath => by_square_roots(us, data, micromath::F32Ext::sqrt),
-        Function::SqrtFpu => by_square_roots(us, data, fpu_sqrt),
+        Function::SqrtFpu => by_square_roots(us, data, sqrt),
     }
 }
 
 fn run() {
     let mut input = In::new();
-    let mut places = (MaybeUninit::zeroed(), MaybeUninit::zeroed(), MaybeUninit::zeroed());
-    let with_0 = curves::<0>(&mut input, &mut places.0);
-    let with_4 = curves::<4>(&mut input, &mut places.1);
-    let with_8 = curves::<8>(&mut input, &mut places.2);
+    let (with_0, with_4, with_8) = (curves::<0>(&mut input), curves::<4>(&mut input), curves::<8>(&mut input));
     let mut words = [[0; 4]; MOST];
     let mut read = |count: usize| {
         words[..count].iter_mut().all(|word| input.read(word) == word.len()).then(|| words.map(u32::from_le_bytes))
@@ -195,9 +179,9 @@ fn run() {
         let (function, curve) = (FUNCTIONS[function as usize], curve as usize);
         let us = &us.map(f32::from_bits)[..count as usize];
         match octaves {
-            0 => run_series(function, curve, with_0, us),
-            4 => run_series(function, curve, with_4, us),
-            _ => run_series(function, curve, with_8, us),
+            0 => run_series(function, curve, &with_0, us),
+            4 => run_series(function, curve, &with_4, us),
+            _ => run_series(function, curve, &with_8, us),
         }
     }
 }
