@@ -1,15 +1,16 @@
 //! What a command line sets in place of a scene.
 
-use shutter_fit::unit::{Unit, short};
+use serde::Serialize;
+use shutter_fit::unit::short;
+use shutter_plan::lamp::SetUp;
+use shutter_plan::scene::Scene;
+use toml::{Table, Value};
 
 use super::fit::trigger_count;
 use super::quantity::{time, whole_rate};
-use shutter_plan::fault::Key;
-use shutter_plan::lamp::SetUp;
-use shutter_plan::scene::Scene;
 
 /// The settings of a frame. They count in place of the scene's.
-#[derive(clap::Args, Default)]
+#[derive(clap::Args, Default, Serialize)]
 pub struct Settings {
     /// How many triggers
     #[arg(long, value_name = "N", value_parser = trigger_count())]
@@ -34,6 +35,7 @@ pub struct Settings {
     min_pulse: Option<f64>,
     /// Flashes of one length in equal steps while the shutter is fully open
     #[arg(long, conflicts_with_all = ["duty", "pulse", "min_pulse"])]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     fully_open: bool,
     /// From a trigger to the lamp's light; each trigger comes earlier by this time
     #[arg(long, value_name = "TIME", value_parser = time)]
@@ -46,44 +48,24 @@ pub struct Settings {
     sync_falls: Option<bool>,
 }
 
+/// Those that are times, in seconds.
+const TIMES: [&str; 5] = ["min_gap", "pulse", "min_pulse", "lamp_lag", "delay"];
+
 impl Settings {
     /// Sets them in a scene, and tells which.
-    pub fn set(&self, scene: &mut Scene) -> Vec<Key> {
-        let (unit, flashes) = (scene.unit(), &mut scene.flashes);
-        let mut keys = Vec::new();
-        let mut set = |key, place: &mut Option<f64>, x: Option<f64>| {
-            if x.is_some() {
-                *place = x;
-                keys.push(key);
-            }
-        };
-        // To the digits that were given: 100 us are 0.1 ms, whatever the binary product is.
-        let of = |seconds: Option<f64>| seconds.map(|it| tidy(unit, it));
-        set("flashes.triggers", &mut flashes.triggers, self.triggers.map(f64::from));
-        set("flashes.timer_hz", &mut flashes.timer_hz, self.timer_hz.map(f64::from));
-        set("flashes.min_gap", &mut flashes.min_gap, of(self.min_gap));
-        set("flashes.pulse", &mut flashes.pulse, of(self.pulse));
-        set("flashes.duty", &mut flashes.duty, self.duty);
-        set("flashes.min_pulse", &mut flashes.min_pulse, of(self.min_pulse));
-        set("flashes.lamp_lag", &mut flashes.lamp_lag, of(self.lamp_lag));
-        set("flashes.delay", &mut flashes.delay, of(self.delay));
-        if self.set_up.is_some() {
-            flashes.set_up = self.set_up;
-            keys.push("flashes.set_up");
+    pub fn set(&self, scene: &mut Scene) -> Vec<String> {
+        const PLAIN: &str = "keys, numbers and words";
+        let unit = scene.unit();
+        let mut own = Table::try_from(self).expect(PLAIN);
+        for (_, time) in own.iter_mut().filter(|(key, _)| TIMES.contains(&key.as_str())) {
+            // To the digits that were given: 100 us are 0.1 ms, whatever the binary product is.
+            let digits = time.as_float().map(|seconds| short(unit.of(seconds), 15).parse());
+            *time = digits.and_then(Result::ok).map_or(time.clone(), Value::Float);
         }
-        if self.sync_falls.is_some() {
-            flashes.sync_falls = self.sync_falls;
-            keys.push("flashes.sync_falls");
-        }
-        if self.fully_open {
-            flashes.fully_open = Some(true);
-            keys.push("flashes.fully_open");
-        }
+        let mut flashes = Table::try_from(&scene.flashes).expect(PLAIN);
+        let keys = own.keys().map(|key| format!("flashes.{key}")).collect();
+        flashes.extend(own);
+        scene.flashes = flashes.try_into().expect(PLAIN);
         keys
     }
-}
-
-fn tidy(unit: Unit, seconds: f64) -> f64 {
-    let time = unit.of(seconds);
-    short(time, 15).parse().unwrap_or(time)
 }
