@@ -9,10 +9,11 @@ use std::error::Error;
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, VERMILION, pen, picture};
+use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, pen, picture};
 use shutter_fit::unit::{count, short};
 
-use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, graph, is_near, knob, lit, time_range};
+use crate::report::axis;
+use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, draw_marks, graph, is_near, knob, lit, time_range};
 pub use set_ups::set_ups;
 use shutter_plan::lamp::{FullyOpen, Lamp};
 use shutter_plan::plan::{Curve, Plan};
@@ -135,7 +136,7 @@ fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
 
 fn draw_cdf(area: &Area, plan: &Plan, Curve { shutter: curve, .. }: &Curve) -> Drawn {
     let (unit, zero) = (plan.unit, plan.origin());
-    let time = drawing::time_axis(plan);
+    let time = axis(plan);
     let y = "fraction of the exposure";
     let mut graph = graph(area, plan, y, Some(&time), 0.0..1.05)?;
     let left = time_range(plan).start;
@@ -157,10 +158,7 @@ fn draw_triggers(
     marks: impl ExactSizeIterator<Item = (f64, f64)> + Clone,
     line: impl Fn((f64, f64)) -> Vec<(f64, f64)>,
 ) -> Drawn {
-    if marks.len() > MOST_MARKS {
-        let tick = |(t, _)| PathElement::new([(t, 0.0), (t, TICK)], pen(VERMILION, 1.0));
-        graph.draw_series(marks.map(tick))?;
-        return Ok(());
-    }
-    drawing::draw_marks(graph, marks, line)
+    let is_many = marks.len() > MOST_MARKS;
+    let line = |(t, y)| if is_many { vec![(t, 0.0), (t, TICK)] } else { line((t, y)) };
+    draw_marks(graph, marks, line)
 }

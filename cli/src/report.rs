@@ -1,6 +1,5 @@
 //! The plan as text for a terminal: its facts, the drawing, the table.
 
-use std::fmt::{self, Display, Write};
 use std::io::stdout;
 use std::iter::once;
 
@@ -10,6 +9,7 @@ use shutter_fit::unit::{decimals, short};
 use terminal_size::terminal_size_of;
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
+use crate::speeds::columns;
 use shutter_plan::facts::Facts;
 use shutter_plan::lamp::{Lamp, SetUp};
 use shutter_plan::plan::{Curve, Plan, Row, Trigger};
@@ -36,9 +36,7 @@ pub fn text(name: &str, plan: &Plan, columns: u16) -> String {
         Some(curve) => drawings(plan, curve, cells),
         None => line_of_time(plan, cells),
     };
-    let mut text = format!("{facts}\n{drawn}\n");
-    table(&mut text, plan).expect("a string takes all");
-    text
+    format!("{facts}\n{drawn}\n{}", table(plan))
 }
 
 fn drawings(plan: &Plan, Curve { shutter: curve, .. }: &Curve, cells: usize) -> String {
@@ -51,8 +49,8 @@ fn drawings(plan: &Plan, Curve { shutter: curve, .. }: &Curve, cells: usize) -> 
     )
 }
 
-/// What times count from.
-fn axis(plan: &Plan) -> String {
+/// What an axis of time is called, and what it counts from.
+pub fn axis(plan: &Plan) -> String {
     let from = if plan.sync.delay.is_some() { " from the sync's edge" } else { "" };
     format!("time{from} ({})", plan.unit.name())
 }
@@ -106,67 +104,63 @@ fn drawing(plan: &Plan, curve: &ShutterCurve, cells: usize, f: impl Fn(f32) -> f
     chart.to_string()
 }
 
-fn table(out: &mut String, planned: &Plan) -> fmt::Result {
-    let (unit, rows, timer) = (planned.unit, planned.rows(), planned.timer);
+/// A row for each trigger, under the columns that a scene has.
+fn table(plan: &Plan) -> String {
+    let (unit, rows, timer, zero) = (plan.unit, plan.rows(), plan.timer, plan.origin());
     // A digit more than tells one tick from the next, as far as f32 has them.
     let tick = unit.of(1.0 / f64::from(timer.hz));
-    let places = decimals(tick, 2).min(decimals(unit.of(planned.length), 7));
-    let has_pulses = rows.iter().any(|row| row.on_ticks.is_some());
-    let is_dimmed = planned.curve.is_some()
-        && planned.scene.flashes.set_up == Some(SetUp::InPath)
-        && matches!(planned.lamp, Lamp::Triggered | Lamp::Equal { .. });
-    // Columns that a scene need not have.
-    let column = |is_there: bool, cell: &dyn Display, width: usize| match is_there {
-        true => format!("  {cell:>width$}"),
-        false => String::new(),
-    };
-    let (by_curve, has_edge) = (planned.curve.is_some(), planned.sync.delay.is_some());
-    let ticks = |name: &dyn Display, edge: &dyn Display, on: &dyn Display, off: &dyn Display| {
-        // By the timer's count at the sync's edge, where that is known.
-        column(timer.is_given, name, 10)
-            + &column(timer.is_given && has_edge, edge, 10)
-            + &column(has_pulses, on, 10)
-            + &column(has_pulses, off, 10)
-    };
+    let places = decimals(tick, 2).min(decimals(unit.of(plan.length), 7));
+    let (by_curve, has_edge, has_pulses) = (plan.curve.is_some(), plan.sync.delay.is_some(), plan.lamp.has_pulses());
+    let is_dimmed = by_curve && !matches!(plan.lamp, Lamp::Doses { .. } | Lamp::FullyOpen);
+    let is_dimmed = is_dimmed && plan.scene.flashes.set_up == Some(SetUp::InPath);
+    let (from, name) = (if has_edge { "from edge" } else { "time" }, unit.name());
     // Between pulses, the gap is darkness.
     let gap = if has_pulses { "apart" } else { "gap" };
-    let time = if has_edge { "from edge" } else { "time" };
-    let [time, gap] = [time, gap].map(|what| format!("{what} ({})", unit.name()));
-    writeln!(
-        out,
-        "    #{}  {time:>13}{}{}  {gap:>13}",
-        column(by_curve, &"u", 7),
-        ticks(&"ticks", &"from edge", &"on", &"off"),
-        column(is_dimmed, &"dose (%)", 8),
-    )?;
-    let hidden = hidden_rows(rows.len());
+    let names = [
+        (true, "#".into(), 5),
+        (by_curve, "u".into(), 7),
+        (true, format!("{from} ({name})"), 13),
+        (timer.is_given, "ticks".into(), 10),
+        (timer.is_given && has_edge, "from edge".into(), 10),
+        (has_pulses, "on".into(), 10),
+        (has_pulses, "off".into(), 10),
+        (is_dimmed, "dose (%)".into(), 8),
+        (true, format!("{gap} ({name})"), 13),
+    ];
+    let cells = |cells: [String; 9]| -> Vec<String> {
+        let cells = cells.iter().zip(&names).filter(|(_, (is_there, ..))| *is_there);
+        cells.map(|(cell, (.., width))| format!("{cell:>width$}")).collect()
+    };
     let mut last: Option<f64> = None;
-    for (i, row) in rows.iter().enumerate() {
-        if i == hidden.start {
-            writeln!(out, "  ...  {} more", hidden.len())?;
-        }
+    let row = |row: &Row| {
         // Rounded as it is printed, so that a gap is the difference of what stands there.
         let rounding = 10f64.powi(places as i32);
-        let time = (unit.of(row.time_s - planned.origin()) * rounding).round() / rounding;
+        let time = (unit.of(row.time_s - zero) * rounding).round() / rounding;
         let gap = last.replace(time).map_or("-".into(), |last| format!("{:.places$}", time - last));
-        if hidden.contains(&i) {
-            continue;
-        }
-        let Row { u, ticks: own, from_edge_ticks, on_ticks, off_ticks, dose, .. } = row;
-        let edges = [on_ticks, off_ticks].map(|ticks| match ticks {
+        let count = |ticks: Option<u32>| ticks.unwrap_or_default().to_string();
+        let switched = |ticks: Option<u32>| match ticks {
             Some(ticks) if !timer.is_given => {
-                let on = planned.start - planned.origin() + planned.seconds(*ticks);
-                format!("{:.places$}", unit.of(on))
+                format!("{:.places$}", unit.of(plan.start - zero + plan.seconds(ticks)))
             }
-            ticks => ticks.unwrap_or_default().to_string(),
-        });
-        writeln!(
-            out,
-            "{i:5}{}  {time:13.places$}{}{}  {gap:>13}",
-            column(by_curve, &format_args!("{:.5}", u.unwrap_or_default()), 7),
-            ticks(own, &from_edge_ticks.unwrap_or_default(), &edges[0], &edges[1]),
-            column(is_dimmed, &short(100.0 * dose.unwrap_or_default(), 3), 8),
-        )?;
-    }
-    Ok(())
+            ticks => count(ticks),
+        };
+        cells([
+            row.index.to_string(),
+            format!("{:.5}", row.u.unwrap_or_default()),
+            format!("{time:.places$}"),
+            row.ticks.to_string(),
+            count(row.from_edge_ticks),
+            switched(row.on_ticks),
+            switched(row.off_ticks),
+            short(100.0 * row.dose.unwrap_or_default(), 3),
+            gap,
+        ])
+    };
+    let header = cells(names.each_ref().map(|(_, name, _)| name.clone()));
+    let hidden = hidden_rows(rows.len());
+    let mut lines = columns(header, rows.iter().map(row).collect::<Vec<_>>());
+    let hidden = hidden.start + 1..hidden.end + 1;
+    let more = (!hidden.is_empty()).then(|| format!("  ...  {} more\n", hidden.len()));
+    lines.splice(hidden, more);
+    lines.concat()
 }

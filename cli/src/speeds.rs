@@ -26,7 +26,7 @@ pub fn text(plans: &[(String, Plan)]) -> String {
         ]
     };
     let header = ["scene", "nominal", "exposure TV", "ΔEV", "efficiency", "delay", "triggers"];
-    columns(header, plans.iter().map(row))
+    table(header, plans.iter().map(row))
 }
 
 /// A name on one line.
@@ -34,17 +34,22 @@ pub fn printable(name: &str) -> String {
     name.chars().filter(|c| !c.is_control()).collect()
 }
 
-/// The rows below their header, in columns: the first from the left, the others from the right.
-pub fn columns<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
-    let rows: Vec<_> = std::iter::once(header.map(String::from)).chain(rows).collect();
+/// The lines of a header and of the rows below it, in columns: the first from the left, the others from the right.
+pub fn columns(header: Vec<String>, rows: Vec<Vec<String>>) -> Vec<String> {
+    let rows = [vec![header], rows].concat();
     let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or_default();
-    let widths: [usize; N] = std::array::from_fn(width);
-    let line = |row: &[String; N]| {
-        let cells = row.iter().zip(widths).enumerate().map(|(i, (cell, width))| match i {
+    let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).enumerate().map(|(i, (cell, width))| match i {
             0 => format!("{cell:width$}"),
             _ => format!("  {cell:>width$}"),
         });
         cells.collect::<String>().trim_end().to_string() + "\n"
     };
     rows.iter().map(line).collect()
+}
+
+/// The same as one text.
+pub fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+    columns(header.map(String::from).to_vec(), rows.map(Vec::from).collect()).concat()
 }

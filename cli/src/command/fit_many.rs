@@ -4,7 +4,7 @@ use shutter_fit::trace::Warning;
 use shutter_fit::unit::{short, stops};
 use shutter_fit::{Fit, From, Measured};
 
-use crate::speeds::{columns, printable};
+use crate::speeds::{self, printable};
 
 /// A trace with what came of it.
 #[derive(Clone)]
@@ -17,7 +17,7 @@ pub struct Speed {
 /// A row for each trace.
 pub fn table(speeds: &[Speed]) -> String {
     let header = ["trace", "nominal", "measured", "ΔEV", "spread", "pulses", "model"];
-    columns(header, speeds.iter().map(row))
+    speeds::table(header, speeds.iter().map(row))
         + "measured: TV, fully open for as much light, ± one standard error; spread: how much the \
            pulses of a trace differ\n"
         + &delays(speeds)
@@ -42,7 +42,7 @@ fn delays(speeds: &[Speed]) -> String {
         return String::new();
     }
     let header = ["trace", "delay", "to any trigger", "shots", "spread", "worst"];
-    let rows = columns(header, speeds.iter().filter_map(row));
+    let rows = speeds::table(header, speeds.iter().filter_map(row));
     let told = "delay: from the sync's edge to the opening; spread: its standard deviation between shots, and worst: \
                 how far one is off their mean; shots of one speed, to 10 %, and of one edge count together\n";
     format!("\n{rows}{told}")

@@ -5,7 +5,7 @@ use shutter_fit::Measured;
 use shutter_fit::unit::{Unit, stops};
 
 use super::fit_many::Speed;
-use crate::speeds::columns;
+use crate::speeds;
 
 /// A row for each sensor of each speed, compared with the first.
 pub fn table(speeds: &[Vec<Speed>]) -> String {
@@ -26,7 +26,7 @@ pub fn table(speeds: &[Vec<Speed>]) -> String {
         [name.clone(), exposure, ev, more, later(0), later(1), fit.chosen.title().into()]
     };
     let rows = speeds.iter().flat_map(|speed| speed.iter().enumerate().map(|(k, sensor)| row(&speed[0], k, sensor)));
-    columns(header, rows)
+    speeds::table(header, rows)
         + "ΔEV: against --nominal; stops: how much more light the sensor gets than the first one; opens, closes later \
            by: the\ntravel of the first and of the second curtain from the first sensor to this one, at half light\n"
 }

@@ -45,12 +45,6 @@ pub fn graph<'a, 'b>(
     axes(area, time, Axis { range, name: Some(y), labels: 6, label: &|y| format!("{y:.1}") }, 60)
 }
 
-/// What the axis of time is called.
-pub fn time_axis(plan: &Plan) -> String {
-    let from = if plan.sync.delay.is_some() { " from the sync's edge" } else { "" };
-    format!("time{from} ({})", plan.unit.name())
-}
-
 /// The axis of time: the interval, and a little room on either side. It begins or ends with the edge of the camera's
 /// sync, where that is near.
 pub fn time_range(plan: &Plan) -> Range<f64> {

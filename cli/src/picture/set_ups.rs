@@ -9,7 +9,8 @@ use chart::{Area, Axis, BLUE, Drawn, SCALE, VERMILION, axes, pen, picture};
 use shutter_curve::ShutterCurve;
 use shutter_fit::unit::short;
 
-use super::drawing::{below, draw_curve, graph, lit, steps, time_axis, write_heading};
+use super::drawing::{below, draw_curve, graph, lit, steps, write_heading};
+use crate::report::axis;
 use shutter_plan::lamp::Lamp;
 use shutter_plan::plan::Plan;
 
@@ -66,7 +67,7 @@ pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
 
 /// The lamp in outlines, and what of its light comes through.
 fn draw_light(area: &Area, plan: &Plan, curve: &ShutterCurve, is_shuttered: bool, pulses: &[(f32, f32)]) -> Drawn {
-    let (unit, zero, name) = (plan.unit, plan.origin(), time_axis(plan));
+    let (unit, zero, name) = (plan.unit, plan.origin(), axis(plan));
     let time = |t: f32| unit.of(f64::from(t) - zero);
     let mut graph = graph(area, plan, "openness", Some(&name), 0.0..1.08)?;
     let at = |t: f32| {

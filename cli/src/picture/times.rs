@@ -7,7 +7,8 @@ use chart::plotters::style::text_anchor::{HPos, VPos};
 use chart::{Axis, INK, SCALE, axes, pen, picture};
 use shutter_fit::unit::{count, decimals, trimmed};
 
-use super::drawing::{draw_marks, is_near, time_axis, time_range, write_heading};
+use super::drawing::{draw_marks, is_near, time_range, write_heading};
+use crate::report::axis;
 use shutter_plan::plan::Plan;
 
 const SIZE: (i32, i32) = (900, 240);
@@ -23,7 +24,7 @@ pub fn svg(name: &str, times: &Plan) -> Result<String, Box<dyn Error>> {
         let triggers = count(times.triggers.len() as u64, "trigger");
         let facts = format!("no curve: {triggers} as measured");
         write_heading(&heading, SIZE.0, name, &facts)?;
-        let (time, places) = (time_axis(times), decimals(end - start, 3));
+        let (time, places) = (axis(times), decimals(end - start, 3));
         let across = Axis { range: time_range(times), name: Some(&time), labels: 11, label: &|t| trimmed(*t, places) };
         let up = Axis { range: 0.0..1.2, name: None, labels: 6, label: &|_| String::new() };
         let mut graph = axes(&rest, across, up, 20)?;

@@ -123,8 +123,8 @@ fn the_plan_says_that_there_is_no_curve_and_shows_the_times() {
         "nominal      2 ms",
         "gap          at least 0.1 ms; the closest two come 0.5 ms apart",
         "    #  from edge (ms)       ticks   from edge       gap (ms)",
-        "    0         1.9000         900        1900              -",
-        "    2         3.0004        2000        3000         0.6004",
+        "    0          1.9000         900        1900              -",
+        "    2          3.0004        2000        3000         0.6004",
     ] {
         assert!(run.out.contains(&format!("{line}\n")), "{line}\n{}", run.out);
     }
