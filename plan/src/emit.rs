@@ -86,19 +86,14 @@ fn is_ready(form: Form, plan: &Plan, curve: bool) -> Result<(), String> {
     if curve && plan.curve.is_none() {
         return Err("--curve: the scene has trigger times and no curve".into());
     }
-    let asked = [
-        (plan.scene.flashes.set_up.is_none(), set_ups(plan)),
-        (!plan.timer.is_given, "timer_hz = ...       # your timer's rate, in Hz".into()),
-        (
-            plan.scene.flashes.min_gap.is_none(),
-            "min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing".into(),
-        ),
-        (
-            plan.sync.delay.is_some_and(|delay| delay.falls.is_none()),
-            "sync_falls = ...     # true, or false if the delay counts from an edge that rises".into(),
-        ),
+    let told = [
+        set_ups(plan),
+        "timer_hz = ...       # your timer's rate, in Hz".into(),
+        "min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing".into(),
+        "sync_falls = ...     # true, or false if the delay counts from an edge that rises".into(),
     ];
-    let lines: String = asked.iter().filter(|(lacks, _)| *lacks).map(|(_, line)| format!("\n  {line}")).collect();
+    let lines = told.iter().zip(plan.scene.lacks()).filter(|(_, (_, lacks))| *lacks);
+    let lines: String = lines.map(|(line, _)| format!("\n  {line}")).collect();
     if lines.is_empty() {
         return Ok(());
     }
@@ -200,6 +195,18 @@ enum Ticks {
 const HOLD_OFF: &str =
     "So long after an edge no other one counts: the frame is over then, and lamp and sync are ready.";
 
+/// What `SYNC_FALLS` is.
+const SYNC_FALLS: &str = "Which edge of the camera's sync counts";
+
+/// From where the ticks of several modules count.
+fn origin(modules: &[Module]) -> &'static str {
+    let is_moved = modules.iter().any(|it| it.origin == DELAYED);
+    if is_moved { DELAYED } else { OPENED }
+}
+
+const OPENED: &str = "counted from the start of opening";
+const DELAYED: &str = "counted from the end of the delay";
+
 impl<'a> Module<'a> {
     fn new(scene: &'a str, plan: &'a Plan) -> Self {
         let (rows, sync) = (plan.rows(), plan.sync);
@@ -223,7 +230,7 @@ impl<'a> Module<'a> {
             false => Ticks::Triggers(rows.iter().map(|row| row.ticks).collect()),
         };
         let is_moved = edge.is_some() && (sync.lag.is_some() || sync.early > 0);
-        let origin = if is_moved { "counted from the end of the delay" } else { "counted from the start of opening" };
+        let origin = if is_moved { DELAYED } else { OPENED };
         Self { scene, plan, head, edge, ticks, origin }
     }
 }

@@ -107,6 +107,19 @@ impl Scene {
         self.flashes.unit.or(self.shutter.unit).unwrap_or(Unit::Second)
     }
 
+    /// What hardware needs and only a user can tell: the options that tell it, and whether each is lacking.
+    pub fn lacks(&self) -> [(&'static str, bool); 4] {
+        let Self { shutter, flashes, .. } = self;
+        let has_own = flashes.delay.is_some();
+        let is_told = flashes.sync_falls.is_some() || !has_own && shutter.sync_falls.is_some();
+        [
+            ("--set-up emulated|in_path", flashes.set_up.is_none()),
+            ("--timer-hz HERTZ", flashes.timer_hz.is_none()),
+            ("--min-gap TIME", flashes.min_gap.is_none()),
+            ("--sync-falls true|false", (has_own || shutter.delay.is_some()) && !is_told),
+        ]
+    }
+
     /// The same with its times in seconds.
     ///
     /// # Errors
@@ -228,9 +241,8 @@ fn told(text: &str, error: &toml::de::Error) -> Fault {
         let is_root = reason.contains("`shutter`");
         reason += if is_root { ": a scene has the tables [shutter] and [flashes]" } else { "" };
     }
-    if let Some(key) = at.and_then(|at| key_at(text, at)) {
-        let name = key.rsplit('.').next().unwrap_or(&key);
-        reason = match name {
+    if let Some(name) = at.and_then(|at| key_at(DeTable::parse(text).ok()?.get_ref(), at)) {
+        reason = match name.as_str() {
             "unit" => "unit: \"s\", \"ms\", \"us\" or \"ns\" is required".into(),
             "set_up" => "set_up: \"emulated\" or \"in_path\" is required".into(),
             "sync_falls" | "fully_open" => format!("{name}: true or false is required"),
@@ -243,12 +255,9 @@ fn told(text: &str, error: &toml::de::Error) -> Fault {
 }
 
 /// The key whose value is there.
-fn key_at(text: &str, at: usize) -> Option<String> {
-    fn find(table: &DeTable, at: usize) -> Option<String> {
-        table.iter().find_map(|(key, value)| match value.get_ref() {
-            DeValue::Table(inner) => find(inner, at),
-            _ => value.span().contains(&at).then(|| key.get_ref().to_string()),
-        })
-    }
-    find(DeTable::parse(text).ok()?.get_ref(), at)
+fn key_at(table: &DeTable, at: usize) -> Option<String> {
+    table.iter().find_map(|(key, value)| match value.get_ref() {
+        DeValue::Table(inner) => key_at(inner, at),
+        _ => value.span().contains(&at).then(|| key.get_ref().to_string()),
+    })
 }

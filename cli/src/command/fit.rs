@@ -1,16 +1,15 @@
 //! `shutter fit`: a measured trace in, the simplest shutter that serves out, as a scene.
 
-use std::io::{IsTerminal, Write, stderr};
+use std::io::Write;
 use std::iter::once;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
-use shutter_fit::trace::{self, Column, Light, Refusal, Tell, Warning};
+use shutter_fit::trace::{self, Column, Light, Tell, Warning};
 use shutter_fit::unit::{Unit, count, short, stops};
-use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
+use shutter_fit::{Kind, Options, Record, Tolerance, delay};
 
 use super::fit_many::{self, Speed};
 use super::input::{file_name, shown, stem};
@@ -25,9 +24,6 @@ use shutter_plan::facts::Facts;
 use shutter_plan::fitted::{self, Zero};
 use shutter_plan::plan::{MOST_TRIGGERS, Plan};
 use shutter_plan::scene::{Scene, Written};
-
-/// Without progress for so long, nobody waits for any.
-const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Fit the simplest shutter to a measured trace, and write it as a scene
 ///
@@ -374,7 +370,7 @@ fn is_one_setting(args: &Args, read: &[Read], records: &[Record], scenes: usize)
 struct Said {
     /// Of each what is doubtful once it is planned, and what else is to be known.
     told: String,
-    /// What only their user can tell.
+    /// The options by which their user tells what nobody else can.
     lacks: Vec<&'static str>,
     /// The one that goes to no file.
     scene: String,
@@ -427,15 +423,8 @@ fn write(
             }
             Err(fault) => said.told += &format!("warning: {file_name}: as it is, {}\n", fault.reason()),
         }
-        let flashes = &scene.flashes;
-        let lacks = [
-            ("--set-up emulated|in_path", flashes.set_up.is_none()),
-            ("--timer-hz HERTZ", flashes.timer_hz.is_none()),
-            ("--min-gap TIME", flashes.min_gap.is_none()),
-            ("--sync-falls true|false", has_edge_untold(&scene)),
-        ];
-        for (option, _) in lacks.into_iter().filter(|(_, lacks)| *lacks) {
-            if !said.lacks.contains(&option) {
+        for (option, lacks) in scene.lacks() {
+            if lacks && !said.lacks.contains(&option) {
                 said.lacks.push(option);
             }
         }
@@ -446,12 +435,6 @@ fn write(
         outputs.add(file, mark::SVG, &picture)?;
     }
     outputs.ready()
-}
-
-/// Is there a delay, and nobody told from which edge?
-fn has_edge_untold(Scene { shutter, flashes, .. }: &Scene) -> bool {
-    let own = flashes.delay.is_some();
-    (own || shutter.delay.is_some()) && flashes.sync_falls.is_none() && (own || shutter.sync_falls.is_none())
 }
 
 /// As many as an older scene has.
@@ -537,7 +520,7 @@ fn json(speeds: &[Speed]) -> String {
 fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<Speed, String> {
     let more = |n: usize| if n > 1 { format!(", of {n} files") } else { String::new() };
     let options = Options { triggers, ..read[0].options.clone() };
-    let mut fit = fitted(records, &options).map_err(|refusal| {
+    let mut fit = shutter_fit::fit_records(records, &options, &mut |_| ()).map_err(|refusal| {
         let (path, reading) = (shown(read[0].path) + &more(read.len()), &read[0].reading);
         format!("{path}: {}; read: {reading}", refusal.with_option())
     })?;
@@ -547,20 +530,4 @@ fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<S
     Warning::add(&mut warnings, read.iter().flat_map(|it| it.warnings.iter().cloned()));
     warnings.extend(fit.warnings.iter().cloned());
     Ok(Speed { name: file_name(path) + &more(read.len()), fit, warnings })
-}
-
-/// The fit; whoever waits for it sees on a terminal how far it is.
-fn fitted(records: &[Record], options: &Options) -> Result<Fit, Refusal> {
-    let (begun, mut shown) = (Instant::now(), false);
-    let mut progress = |done: f64| {
-        if begun.elapsed() > PATIENCE && stderr().is_terminal() {
-            _ = write!(stderr(), "\rfitting {:3.0} %", 100.0 * done);
-            shown = true;
-        }
-    };
-    let fit = shutter_fit::fit_records(records, options, &mut progress);
-    if shown {
-        _ = write!(stderr(), "\r             \r");
-    }
-    fit
 }

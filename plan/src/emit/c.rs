@@ -1,6 +1,6 @@
 //! A plan as a header of C99 and C++11.
 
-use super::{HOLD_OFF, MADE_BY, Module, Ticks, name, rows};
+use super::{HOLD_OFF, MADE_BY, Module, SYNC_FALLS, Ticks, name, rows};
 use crate::scene::fnv;
 
 /// The header of a plan, its names those of the scene.
@@ -65,8 +65,7 @@ static inline {int} {lower}_due({int} edge, {int} ticks)
 pub fn headers(called: &str, modules: &[Module]) -> String {
     let Some(one) = modules.first() else { return String::new() };
     let ((lower, upper), int, n) = (names(called), int(one), modules.len());
-    let moved = modules.iter().find(|it| it.origin.ends_with("delay"));
-    let origin = moved.unwrap_or(one).origin;
+    let origin = super::origin(modules);
     let arrays: &[_] = if matches!(one.ticks, Ticks::Pulses(_)) { &["on", "off"] } else { &["ticks"] };
     let delay = format!(
         "    /* See its _DELAY_TICKS. */\n    {int} delay_ticks;\n    /* See its _HOLD_OFF_TICKS. */\n    {int} \
@@ -104,14 +103,11 @@ static const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{
 /// The timer, and the edge.
 fn common(upper: &str, module: &Module) -> String {
     let hz = module.plan.timer.hz;
-    let rate = format!("#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({hz})\n");
-    module.edge.as_ref().map_or(rate.clone(), |edge| {
-        format!(
-            "{rate}/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n\
-             #define {upper}_SYNC_FALLS {}\n",
-            u8::from(edge.falls)
-        )
-    })
+    let edge = module.edge.as_ref().map_or(String::new(), |edge| {
+        let falls = u8::from(edge.falls);
+        format!("/* {SYNC_FALLS}: the falling one (1), or the rising one (0). */\n#define {upper}_SYNC_FALLS {falls}\n")
+    });
+    format!("#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({hz})\n{edge}")
 }
 
 /// The type of the timer's count.

@@ -1,15 +1,14 @@
 //! A plan as a module of Rust, which needs no crate unless its curve is asked for.
 
-use super::{HOLD_OFF, MADE_BY, Module, Ticks, name, rows};
+use super::{HOLD_OFF, MADE_BY, Module, SYNC_FALLS, Ticks, name, rows};
 use crate::shape::Shape;
 
 /// Said of each item: a firmware need not use them all.
 const ALLOW: &str = "#[allow(dead_code)]";
 /// Said of tables: their digits stand as in every other form, in rows of our own.
 const TABLE: &str = "#[allow(dead_code, clippy::unreadable_literal)]\n#[rustfmt::skip]";
-/// What is said of [`Ticks`].
-const PULSES: &str = "When to switch the lamp on, and when off";
-const TRIGGERS: &str = "When to trigger";
+/// The shutter.
+const SHUTTER: &str = "The shutter, its times in seconds.";
 
 /// The file of a module that is called as the scene is.
 pub fn module(module: &Module, curve: bool) -> String {
@@ -17,99 +16,67 @@ pub fn module(module: &Module, curve: bool) -> String {
     let (int, n) = (int(module), plan.triggers.len());
     let head: String = head.iter().map(|line| format!("// {line}").trim_end().to_string() + "\n").collect();
     let delay = edge.as_ref().map_or(String::new(), |edge| {
-        let [delay, hold_off] = [edge.delay, edge.hold_off].map(grouped);
-        let about = edge.about;
-        format!(
-            "
-/// {about}
-{ALLOW}
-pub const DELAY_TICKS: {int} = {delay};
-
-/// {HOLD_OFF}
-{ALLOW}
-pub const HOLD_OFF_TICKS: {int} = {hold_off};
-"
-        )
+        item(edge.about, &format!("DELAY_TICKS: {int} = {}", grouped(edge.delay)))
+            + &item(HOLD_OFF, &format!("HOLD_OFF_TICKS: {int} = {}", grouped(edge.hold_off)))
     });
-    let array = match ticks {
-        Ticks::Pulses(pulses) => {
-            let rows = rows(pulses.iter().map(|(on, off)| format!("({on}, {off})")));
-            format!("/// {PULSES}, {origin}.\n{TABLE}\npub const PULSES: [({int}, {int}); COUNT] = [\n{rows}];\n")
-        }
-        Ticks::Triggers(ticks) => {
-            let rows = rows(ticks.iter());
-            format!("/// {TRIGGERS}, {origin}.\n{TABLE}\npub const TICKS: [{int}; COUNT] = [\n{rows}];\n")
-        }
-    };
+    let (what, (name, of), rows) = (
+        what(ticks),
+        array(ticks, int),
+        match ticks {
+            Ticks::Pulses(pulses) => rows(pulses.iter().map(|(on, off)| format!("({on}, {off})"))),
+            Ticks::Triggers(ticks) => rows(ticks.iter()),
+        },
+    );
+    let table = format!("\n/// {what}, {origin}.\n{TABLE}\npub const {name}: [{of}; COUNT] = [\n{rows}];\n");
     let from_edge = edge.as_ref().map_or(String::new(), |_| from_edge(ticks, int));
     let shutter = plan.curve.as_ref().filter(|_| curve).map_or(String::new(), |curve| {
+        let (shutter, uses) = (constructor(&curve.shape), "use shutter_curve::{ShutterCurve, expect};");
         format!(
-            "
-use shutter_curve::{{ShutterCurve, expect}};
-
-/// The shutter, its times in seconds.
-{TABLE}
-pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::{});
-",
-            constructor(&curve.shape)
+            "\n{uses}\n\n/// {SHUTTER}\n{TABLE}\n\
+             pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::{shutter});\n"
         )
     });
-    let common = common(module);
-    format!(
-        "{head}\n{common}\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {n};\n\
-         {delay}\n{array}{from_edge}{shutter}"
-    )
+    let (common, count) = (common(module), item("So many flashes.", &format!("COUNT: usize = {n}")));
+    format!("{head}{common}{count}{delay}{table}{from_edge}{shutter}")
 }
 
 /// The file of a module with one module for each plan, and an array of them all.
 pub fn modules(called: &str, modules: &[Module], curve: bool) -> String {
     let Some(one) = modules.first() else { return String::new() };
-    let (int, n) = (int(one), modules.len());
-    let is_moved = modules.iter().find(|it| it.origin != one.origin || it.origin.ends_with("delay"));
-    let origin = is_moved.map_or(one.origin, |_| "counted from the end of the delay");
-    let mut fields = vec![("The scene's name.".into(), "name: &'static str".to_string(), None)];
-    if one.edge.is_some() {
-        fields.push(("See `DELAY_TICKS`.".into(), format!("delay_ticks: {int}"), Some("DELAY_TICKS")));
-        fields.push(("See `HOLD_OFF_TICKS`.".into(), format!("hold_off_ticks: {int}"), Some("HOLD_OFF_TICKS")));
-    }
-    fields.push(match one.ticks {
-        Ticks::Pulses(_) => {
-            (format!("{PULSES}, {origin}."), format!("pulses: &'static [({int}, {int})]"), Some("&PULSES"))
-        }
-        Ticks::Triggers(_) => (format!("{TRIGGERS}, {origin}."), format!("ticks: &'static [{int}]"), Some("&TICKS")),
-    });
-    if curve {
-        let field = "shutter: &'static shutter_curve::ShutterCurve".into();
-        fields.push(("The shutter, its times in seconds.".into(), field, Some("&SHUTTER")));
-    }
-    let declared: String =
-        fields.iter().map(|(about, field, _)| format!("    /// {about}\n    pub {field},\n")).collect();
+    let (int, n, origin) = (int(one), modules.len(), super::origin(modules));
+    let (what, (array, of)) = (what(&one.ticks), array(&one.ticks, int));
+    let field = array.to_lowercase();
+    // What each field is, its type, and its item in the module of a speed.
+    let mut fields = vec![("See `DELAY_TICKS`.", "delay_ticks", int, "", "DELAY_TICKS")];
+    fields.push(("See `HOLD_OFF_TICKS`.", "hold_off_ticks", int, "", "HOLD_OFF_TICKS"));
+    fields.retain(|_| one.edge.is_some());
+    let (about, slice) = (format!("{what}, {origin}."), format!("&'static [{of}]"));
+    fields.push((&about, &field, &slice, "&", array));
+    let shutter = (SHUTTER, "shutter", "&'static shutter_curve::ShutterCurve", "&", "SHUTTER");
+    fields.extend(curve.then_some(shutter));
+    let declared = |(about, name, of, ..): &(_, _, _, _, _)| format!("    /// {about}\n    pub {name}: {of},\n");
     let speed = |module: &Module| {
         let (own, shown) = (name::module(module.scene), name::shown(module.scene));
-        let of = |(_, field, item): &(String, String, Option<&str>)| {
-            let (field, _) = field.split_once(':').unwrap_or((field, ""));
-            match item.map(|item| item.split_at(item.len() - item.trim_start_matches('&').len())) {
-                Some((by, item)) => format!("        {field}: {by}{own}::{item},\n"),
-                None => format!("        {field}: {shown:?},\n"),
-            }
-        };
-        format!("    Speed {{\n{}    }},\n", fields.iter().map(of).collect::<String>())
+        let field = |(_, name, _, by, item): &(_, _, _, _, _)| format!("        {name}: {by}{own}::{item},\n");
+        let fields: String = fields.iter().map(field).collect();
+        format!("    Speed {{\n        name: {shown:?},\n{fields}    }},\n")
     };
-    let speeds: String = modules.iter().map(speed).collect();
     let own = |module: &Module| {
         let body = self::module(module, curve);
         let body: String = body.lines().map(|line| format!("    {line}").trim_end().to_string() + "\n").collect();
         format!("\n/// A speed of the shutter.\npub mod {} {{\n{body}}}\n", name::module(module.scene))
     };
-    let (shown, common) = (name::shown(called), common(one));
+    let (declared, speeds) = (fields.iter().map(declared).collect::<String>(), modules.iter().map(speed));
+    let (shown, common, speeds) = (name::shown(called), common(one), speeds.collect::<String>());
     let own: String = modules.iter().map(own).collect();
     format!(
         "// {MADE_BY}: {shown}, a shutter of {n} speeds.
-
 {common}
 /// A speed of the shutter.
 {ALLOW}
 pub struct Speed {{
+    /// The scene's name.
+    pub name: &'static str,
 {declared}}}
 
 /// The speeds.
@@ -121,29 +88,48 @@ pub static SPEEDS: [Speed; {n}] = [
     )
 }
 
+/// A constant.
+fn item(about: &str, constant: &str) -> String {
+    format!("\n/// {about}\n{ALLOW}\npub const {constant};\n")
+}
+
 /// What the speeds of a shutter have in common: the timer, and the edge.
 fn common(module: &Module) -> String {
-    let hz = grouped(module.plan.timer.hz);
-    let rate = format!("/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {hz};\n");
-    module.edge.as_ref().map_or(rate.clone(), |edge| {
-        format!(
-            "{rate}\n/// Which edge of the camera's sync counts: the falling one, or the rising one.\n{ALLOW}\n\
-             pub const SYNC_FALLS: bool = {};\n",
-            edge.falls
-        )
-    })
+    let edge = module.edge.as_ref();
+    item("The timer's rate.", &format!("TIMER_HZ: u32 = {}", grouped(module.plan.timer.hz)))
+        + &edge.map_or(String::new(), |edge| {
+            item(
+                &format!("{SYNC_FALLS}: the falling one, or the rising one."),
+                &format!("SYNC_FALLS: bool = {}", edge.falls),
+            )
+        })
+}
+
+/// What a table has.
+fn what(ticks: &Ticks) -> &'static str {
+    match ticks {
+        Ticks::Pulses(_) => "When to switch the lamp on, and when off",
+        Ticks::Triggers(_) => "When to trigger",
+    }
+}
+
+/// A table's name, and the type of its elements.
+fn array(ticks: &Ticks, int: &str) -> (&'static str, String) {
+    match ticks {
+        Ticks::Pulses(_) => ("PULSES", format!("({int}, {int})")),
+        Ticks::Triggers(_) => ("TICKS", int.into()),
+    }
 }
 
 /// The functions that count from the edge.
 fn from_edge(ticks: &Ticks, int: &str) -> String {
-    let item = format!("({int}, {int})");
-    let [doc, due, width, on_off, item, each] = match ticks {
+    let item = array(ticks, int).1;
+    let [doc, due, width, on_off, each] = match ticks {
         Ticks::Pulses(_) => [
             "its pulse is its own, whatever `_width`",
             "switch the lamp on, and off",
             "_width",
             "    let (on, off) = PULSES[i];\n    (DELAY_TICKS + on, DELAY_TICKS + off)",
-            &item,
             "PULSES.iter().map(move |&(on, off)| (at(on), at(off)))",
         ],
         Ticks::Triggers(_) => [
@@ -151,7 +137,6 @@ fn from_edge(ticks: &Ticks, int: &str) -> String {
             "trigger",
             "width",
             "    let on = DELAY_TICKS + TICKS[i];\n    (on, on + width)",
-            int,
             "TICKS.iter().map(move |&ticks| at(ticks))",
         ],
     };
@@ -189,13 +174,10 @@ fn grouped(n: u32) -> String {
 }
 
 /// The call that makes the curve; `{:?}` writes an `f32` as a literal that is it.
-fn constructor(shape: &Shape) -> String {
-    let Shape { times, inner } = shape;
+fn constructor(Shape { times, inner }: &Shape) -> String {
+    let [open_start, open_end, close_start, close_end] = times;
     match inner {
         Some(inner) => format!("shutteropening(\n    {times:?},\n    {inner:?},\n)"),
-        None => {
-            let [open_start, open_end, close_start, close_end] = times;
-            format!("linear({open_start:?}, {open_end:?}, {close_start:?}, {close_end:?})")
-        }
+        None => format!("linear({open_start:?}, {open_end:?}, {close_start:?}, {close_end:?})"),
     }
 }
