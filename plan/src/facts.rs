@@ -7,6 +7,7 @@ use shutter_fit::unit::{Unit, count, plus_minus, short, stops};
 
 use crate::lamp::{FullyOpen, Lamp, SetUp};
 use crate::plan::{Curve, MOST_TRIGGERS, Plan, digits};
+use crate::scene::Scene;
 use crate::sync::Delay;
 
 /// What is known of a plan, and what is doubtful about it.
@@ -238,7 +239,7 @@ fn spread(plan: &Plan) -> Option<String> {
 }
 
 /// In how many frames a delay that moves by a tick a second moves by 1 % of a share, if there is a delay and a share.
-pub fn drift(plan: &Plan) -> Option<f64> {
+fn drift(plan: &Plan) -> Option<f64> {
     plan.sync.delay.filter(|_| plan.timer.is_given)?;
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
     let ticks = share(plan)? * f64::from(plan.timer.hz);
@@ -292,52 +293,52 @@ fn set_up(plan: &Plan) -> String {
 
 /// All that may be wrong with a plan that is none the less made.
 fn doubts(plan: &Plan) -> Vec<Message> {
-    let doubt = |code, text: String, remedy| Message { code, text, remedy };
-    let traced = plan.scene.shutter.measured.iter().flat_map(|it| &it.warnings);
-    let mut all: Vec<_> = traced.map(|text| doubt("trace", text.clone(), None)).collect();
-    if plan.scene.is_edited {
-        let text = "what a fit wrote below [shutter] was changed by hand since; a hand's own delay and edge belong \
-                    below [flashes]";
-        all.push(doubt("edited", text.into(), None));
-    }
-    all.extend(exposure_differs(plan).map(|text| doubt("exposure_differs", text, None)));
-    all.extend(delay_differs(plan).map(|text| doubt("delay_differs", text, None)));
-    let told = plan.scene.shutter.sync_falls.zip(plan.sync.delay.and_then(|it| it.falls));
-    if let Some((told, said)) = told.filter(|(told, said)| told != said) {
+    let Scene { shutter, is_edited, .. } = &plan.scene;
+    let traced = shutter.measured.iter().flat_map(|it| &it.warnings).map(|text| ("trace", Some(text.clone()), None));
+    let edited = is_edited.then(|| {
+        "what a fit wrote below [shutter] was changed by hand since; a hand's own delay and edge belong below [flashes]"
+            .into()
+    });
+    let told = shutter.sync_falls.zip(plan.sync.delay.and_then(|it| it.falls));
+    let inverted = told.filter(|(told, said)| told != said).map(|(told, said)| {
         let edge = if said { "falling" } else { "rising" };
-        let text = format!(
+        format!(
             "the trace has sync_falls = {told}, and the flashes count from the {edge} edge: that is right if \
              something between the camera and the timer inverts the sync"
-        );
-        all.push(doubt("sync_inverted", text, Some("sync_falls")));
-    }
-    if let Some(curve) = plan.curve.as_ref().filter(|it| plan.timer.is_given && it.moved >= HALF_TICK) {
+        )
+    });
+    let curve = plan.curve.as_ref().filter(|it| plan.timer.is_given && it.moved >= HALF_TICK);
+    let moved = curve.map(|curve| {
         let ticks = count(curve.moved.ceil() as u64, "tick");
-        let text = format!("f32 moves the curve's times by up to {ticks}; they are nearest where open_start is 0");
-        all.push(doubt("times_rounded", text, None));
-    }
+        format!("f32 moves the curve's times by up to {ticks}; they are nearest where open_start is 0")
+    });
     let length = plan.edge_to_end();
-    if plan.timer.off(length) >= HALF_TICK {
-        all.push(doubt("rate_rounded", format!("the timer has {}", plan.timer.told(length)), Some("timer_hz")));
-    }
-    all.extend(dimmed(plan).map(|doses| {
-        let text = format!(
+    let is_off = plan.timer.off(length) >= HALF_TICK;
+    let rate = is_off.then(|| format!("the timer has {}", plan.timer.told(length)));
+    let dimmed = dimmed(plan).map(|doses| {
+        format!(
             "the shutter is in the light's path, and dims the flashes to {doses}; duty = 0.5 (--duty, for pulses) or \
              fully_open (--fully-open, for xenon) makes doses equal"
-        );
-        doubt("dimmed", text, Some("duty"))
-    }));
-    all.extend(unequal(plan).map(|by| {
-        let text = format!("a tick is so long that the doses differ by up to {by} %; a faster timer makes them equal");
-        doubt("unequal", text, Some("timer_hz"))
-    }));
-    all.extend(coarse(plan).map(|by| {
+        )
+    });
+    let unequal = unequal(plan)
+        .map(|by| format!("a tick is so long that the doses differ by up to {by} %; a faster timer makes them equal"));
+    let coarse = coarse(plan).map(|by| {
         let by = short(by, 2);
-        let text =
-            format!("a tick is so long that flashes move by up to {by} % of a share; a faster timer moves them less");
-        doubt("coarse", text, Some("timer_hz"))
-    }));
-    all
+        format!("a tick is so long that flashes move by up to {by} % of a share; a faster timer moves them less")
+    });
+    let own = [
+        ("edited", edited, None),
+        ("exposure_differs", exposure_differs(plan), None),
+        ("delay_differs", delay_differs(plan), None),
+        ("sync_inverted", inverted, Some("sync_falls")),
+        ("times_rounded", moved, None),
+        ("rate_rounded", rate, Some("timer_hz")),
+        ("dimmed", dimmed, Some("duty")),
+        ("unequal", unequal, Some("timer_hz")),
+        ("coarse", coarse, Some("timer_hz")),
+    ];
+    traced.chain(own).filter_map(|(code, text, remedy)| Some(Message { code, text: text?, remedy })).collect()
 }
 
 /// Is the curve's exposure another than the one that was measured beside it?

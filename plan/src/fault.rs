@@ -78,7 +78,7 @@ fn place(text: &str, key: &str) -> Option<usize> {
     Some(table.get(last)?.span().start)
 }
 
-/// So many ticks, told in the scene's unit, and as ticks where the timer's rate is given.
+/// So many ticks, told in this unit, and as ticks where the timer's rate is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ticks {
     pub(crate) count: i64,

@@ -155,7 +155,11 @@ impl<'a> Frames<'a> {
     /// What is wrong with the frame of `n` triggers, and what would help.
     pub fn told(&self, problem: Problem, n: u32) -> Fault {
         let most = self.checked(1).is_ok().then(|| self.most(1, n));
-        let ticks = |count| Ticks { count, hz: self.timer.hz, is_given: self.timer.is_given, unit: self.unit };
+        let length = if let Lamp::Equal { ticks } = self.lamp { ticks.into() } else { 0 };
+        let asked = self.timer.seconds(self.dark.max(self.lit).max(length) as f64);
+        // The scene's unit is not that of the command line: 1.5 ms are no 0.0015 s.
+        let unit = if (0.1..1e4).contains(&self.unit.of(asked)) { self.unit } else { Unit::fit(asked) };
+        let ticks = |count| Ticks { count, hz: self.timer.hz, is_given: self.timer.is_given, unit };
         let [dark, lit] = [self.dark, self.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
         let pair = |first, gap| Pair { first, gap: ticks(gap), least: dark };
         let what = match (self.lamp, problem) {
