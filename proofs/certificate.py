@@ -13,7 +13,7 @@ from z3 import *
 
 from common import *
 
-DEGREE, POINTS, FIRST_STRIDE = constant("DEGREE"), constant("POINTS"), constant("FIRST_STRIDE")
+DEGREE, POINTS = constant("DEGREE"), constant("POINTS")
 ONE, COSINE = int(constant("bound::ONE")), constant("COSINE")
 single = lambda text: Fraction(struct.unpack("f", struct.pack("f", float(text)))[0])
 FACTOR = [single(text) for text in re.findall(r"\d+\.[\d_]+", text_of("FACTOR"))]
@@ -34,19 +34,19 @@ off = off_table(float(COSINE))
 proven(f"the table's {POINTS // 2 + 1} cosines are within 2^{log2(off):.2f}",
        off <= Fraction(1, 2 * ONE) * (1 + Fraction(1, 2**10)) and off_table(float(COSINE) * (1 - 2.0**-40)) > off * 2)
 
-# --- The degree of R, an offset's times the octave's, and of R times the openness. So the factors.
+# --- The degree of R, an offset's times the octave's, and of R times the openness. So the factor.
 n = 6 * DEGREE + 3
 exact = {stride: 1 / cosine(n * stride / (2 * POINTS)) for stride in (1, 2)}
-factor_off = max(abs(FACTOR[stride & 3] / exact[stride] - 1) for stride in exact) / U
+factor_off = max(abs(FACTOR[stride] / exact[stride] - 1) for stride in exact) / U
 proven(f"R times the openness has degree {n}, and FACTOR is 1 / cos({n} pi / 2N) for N = {POINTS // 2} and {POINTS}, "
        f"to {float(factor_off):.2f} roundings",
-       n == 51 and n < POINTS // FIRST_STRIDE and factor_off <= 1 and FIRST_STRIDE == 2,
+       n == 51 and n < POINTS // 2 and factor_off <= 1,
        # A degree of 50 would not do.
        abs(FACTOR[2] * cosine((n - 1) / POINTS) - 1) > 2**16 * U)
 # Samples are off their points, and so is a sample by Markov: max |p| <= F (seen + off n^2 max |p|). Roundings of 2^-24:
 # a sample's two words and their sum, its product with a weight, the sum with the noise, two by SLACK and FACTOR, and
 # what FACTOR is off. The noise has 14 of its own, at most.
-spoilt = (1 / (1 - exact[FIRST_STRIDE] * off * n**2) - 1) / U
+spoilt = (1 / (1 - exact[2] * off * n**2) - 1) / U
 roundings = spoilt + max(2 + 1, 14) + 1 + 2 + factor_off
 slack = lambda more: (1 + more) * (1 - U) ** (int(roundings) + 1) >= 1
 more = constant("SLACK") - 1
@@ -60,13 +60,13 @@ a, b = Ints("a b")
 require_valid("the product by words", (a * 2**32 + b) / 2**30 == 4 * a + b / 2**30)
 lost = Fraction(4 + 3, 2 ** constant("TIME_BITS"))
 position, allowed = Fraction(1, 2) + Fraction(7 + 6, 2 ** constant("POSITION_BITS")), Fraction("0.5002")
-proven(f"samples in integers: a time is off by at most SAMPLE_OFF = 2^{log2(lost):.2f} steps, a position by 1/2 and "
+proven(f"samples in integers: a time is off by at most SAMPLE_OFF = 2^{log2(lost):.2f} lsb, a position by 1/2 and "
        f"2^{log2(position - Fraction(1, 2)):.1f}; none is beyond 63 bits",
        constant("SAMPLE_OFF") == lost and position <= allowed < Fraction(1001, 2000),
        7 * (2**60 + 1) < 2**63 and ONE == 2**30)
 # A weight by Horner's rule, for each coefficient: products, sums, and the place, rounded, in each product; and its own.
 HORNER = [2 * k + min(k + 1, 3) for k in range(4)]
-weight_off = (exact[FIRST_STRIDE] * max(HORNER) + 1) * Fraction(1001, 1000) * U
+weight_off = (exact[2] * max(HORNER) + 1) * Fraction(1001, 1000) * U
 proven(f"what rounds the openness at a sample is at most {float(weight_off / U):.1f} roundings of its coefficients "
        "without signs, in a bound: within WEIGHT_OFF",
        weight_off <= constant("WEIGHT_OFF") < 8 * weight_off)

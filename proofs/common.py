@@ -37,14 +37,6 @@ def text_of(name):
     return values[0]
 
 
-def stated(file, pattern):
-    """The numbers of a line of src/ that no constant names."""
-    found = re.findall(pattern, (SRC / file).read_text())
-    if len(found) != 1:
-        sys.exit(f"src/{file} has {len(found)} places like {pattern}, not 1")
-    return [int(number) for number in (found if isinstance(found[0], str) else found[0])]
-
-
 def constant(name):
     """The value of a constant of src/."""
     text = re.sub(r" as \w+|\.to_bits\(\)|(?<=\d)_(?=\d)|(?<=\d)[iu]\d\d\b", "", text_of(name))

@@ -10,13 +10,13 @@ from z3 import *
 from common import *
 
 SHIFT_MASK, STEP = constant("SHIFT_MASK"), constant("EIGHTH")
-# The index, and the significand with its sign, which is the place in the octave. `top` is below 2, `bits` those of a
+# The index, and the significand with its sign, which is the place in the octave. `bits` are those of a
 # fraction above 0 and at most `top`.
 top, bits = BitVecs("top bits", 32)
 below = top - bits
 index, significand = LShR(below, 23), (bits ^ ((top ^ below) & (1 << 23))) << 8
 octave_top = top - (index << 23)
-domain = And(UGT(bits, 0), ULE(bits, top), ULT(top, 128 << 23))
+domain = And(UGT(bits, 0), ULE(bits, top), ULT(top, 1 << 31))
 found = lambda is_below: Implies(domain, And(is_below(bits, octave_top), UGT(bits + (1 << 23), octave_top)))
 valid("the look-up finds the octave below whose top, and above half of whose top, the fraction is",
       found(ULE), found(ULT))
@@ -25,6 +25,11 @@ is_told = lambda lower: And(LShR(bits, 23) == binade(lower), significand << 1 ==
 signed = lambda lower: Implies(And(domain, UGE(bits, 1 << 23)), is_told(lower))
 valid("its sign says in which of the octave's two binades the fraction is, and the rest is its significand",
       signed(1), signed(0))
+raised, k = (127 + int(log2(constant("NO_OCTAVES"))) << 23) + (BitVec("k", 32) << 23), BitVec("k", 32)
+asked = Or(ULE(bits, 126 << 23), UGT(bits, 255 << 23))
+is_none = lambda most: Implies(And(asked, ULE(k, 64)), UGE(LShR(raised - bits, 23), most))
+valid("a ramp without octaves has none at any index, for each fraction up to 1/2, NaN and negative number",
+      is_none(64), is_none(65))
 
 # The offset. The fraction, in 2^-32 of the power of two at or below the octave's top, is an integer `exact` of 34 bits.
 significand, center = BitVec("significand", 32), BitVec("center", 64)

@@ -37,8 +37,8 @@ valid("times: for an `a` from 0 on it never falls as `a` grows", grows(WORD - 1)
 # --- A series of n coefficients by Horner's rule: n - 1 products by `times`, each less than 3 units of 2^shift low and
 # then multiplied by the place, which is below 1, once for each product that follows; the last is rounded down.
 loses = lambda n, shift, p: 2**shift * 3 * sum(p**k for k in range(1, n)) + 1
-MASS_SHIFT, TIME_SHIFT = constant("MASS_SHIFT"), constant("WAY_SHIFT")
-WOBBLE, TIME_WOBBLE = loses(6, MASS_SHIFT, 1), loses(3, TIME_SHIFT, 1)
+MASS_SHIFT, WAY_SHIFT = constant("MASS_SHIFT"), constant("WAY_SHIFT")
+WOBBLE, TIME_WOBBLE = loses(6, MASS_SHIFT, 1), loses(3, WAY_SHIFT, 1)
 proven(f"Series::at is low by less than 3 (n - 1) 2^shift times the place, and 1: a mass by {WOBBLE}, 2^"
        f"{log2(WOBBLE):.2f}; a way by {TIME_WOBBLE}",
        all(loses(n, s, p) <= 3 * (n - 1) * 2**s * p + 1 for n in (3, 6) for s in (0, 9) for p in (U, 1)),
@@ -57,7 +57,7 @@ proven(f"no sum of Horner's rule reaches 2^63: a time's are below 2^{log2(of_tim
 
 # --- A search ends. The steepest a series is, in units for a place; and what is between two neighbouring places.
 LEAST_ERROR, FREE_STEPS = constant("LEAST_ERROR"), constant("FREE_STEPS")
-TIME_BITS, LEAST_WAY_ERROR = stated("cdf.rs", r"let error = \(time.abs\(\) >> (\d+)\) \+ (\d+)")
+TIME_SHIFT, LEAST_WAY_ERROR = constant("TIME_SHIFT"), constant("LEAST_WAY_ERROR")
 mass_step, time_step = Fraction(STEEPEST * 2**62 + 1, 2**64) + U, Fraction(3 * 2**62, 2**64) + U
 steepest_time = max(box.greatest(box.slope(box.Extreme(corner, (0, 0, 0, 0)).t)) for corner in box.corners())
 ends = lambda wobble, step, error: wobble + step < 2 * error + 1
@@ -75,12 +75,12 @@ proven(f"after {halved} halvings the bracket's ends are neighbours, and one of t
 
 # --- The grid of fractions, in units of a mass, 2^-62, and the error of one; `cut` is that of time_units, for a = s
 # 2^up in half steps of the grid.
-HALF_BITS, GRID_BITS = stated("exposure.rs", r"\(\(fixed_down\(a, -(\d+)\) \+ 1\) >> 1\) << (\d+)")
-ERROR_BITS, GRID = stated("exposure.rs", r"\(a >> (\d+)\) \+ LEAST_ERROR")[0], 2**GRID_BITS
+GRID_BITS = 62 - constant("GRID")
+ERROR_SHIFT, GRID = constant("ERROR_SHIFT"), 2**GRID_BITS
 s, up = BitVec("s", 64), BitVec("up", 64)
 cut = ((s << up) + 1) >> 1
 is_multiple = lambda least: Implies(And(UGE(s, 1 << 23), ULT(s, 1 << 24), up >= least, up <= 24), cut << 1 == s << up)
-require(HALF_BITS - 1 + GRID_BITS == 62 and -23 - 23 + HALF_BITS == 1, "a number from 2^-23 on has up >= 1")
+require(-23 - 23 + constant("GRID") + 1 == 1, "a number from 2^-23 on has up >= 1")
 valid(f"each f32 from 2^-23 to 1/2 is a multiple of the grid, 2^{GRID_BITS - 62}", is_multiple(1), is_multiple(0))
 
 # What an answer is off by, in these units, for a fraction of 2^e to 2^(e+1). A coefficient is cut by less than
@@ -91,7 +91,7 @@ CUTS = 6 * 2**MASS_SHIFT
 # A way's measuring, in fine units: the series; its three differences, each cut by 7 at most; and control times, each
 # cut by less than a unit, which is two fine ones at most, or they are exact. A fine unit's mass: the openness is at
 # most the ramp's greatest control value, of which the area is LEAST_AREA, and an interval has 2^61 fine units.
-WAY = TIME_WOBBLE + 3 * (2**TIME_SHIFT - 1) + 2
+WAY = TIME_WOBBLE + 3 * (2**WAY_SHIFT - 1) + 2
 require(WAY == WAY_OFF, "what a way is measured to")
 PER_FINE = 2**62 / LEAST_AREA / 2**61
 
@@ -100,7 +100,7 @@ def answer(e, grid=GRID):
     """Of two neighbouring answers: how far the true masses of their places are apart; and what an answer is off by
     beside the rounding to the grid."""
     most = Fraction(2) ** (62 + e + 1)
-    error = most / 2**ERROR_BITS + LEAST_ERROR
+    error = most / 2**ERROR_SHIFT + LEAST_ERROR
     # Of two series, from either end of a ramp, each is low, and cut in its own way.
     off = error + WOBBLE + CUTS + SHARE * most
     return max(grid, most / 2**24) - 2 * off, off + JOIN + WAY * PER_FINE
@@ -144,20 +144,20 @@ own, by_search = constant("ULP_ERROR"), max(answer(e)[1] / ulp(e) for e in BINAD
 proven(f"with one unit in its certificate a polynomial beside another takes {float(2 * own)} ulp of exposure, beside a "
        f"search {float(own + by_search):.3f}; the plateau's line beside either at most {float(own + U * 2**18):.3f}",
        2 * own < 1 and own + by_search < 1 and by_search + U * 2**18 < own,
-       stated("octave/candidate.rs", r"HALF_TRUNCATION \+ (\d+).0 / factor") == [1])
+       constant("UNITS_OFF") == 1)
 
 # --- The cdf. A place's way is within the error; neighbouring times are 2^-24 of themselves apart, or a unit.
 TRACE = 2**15  # the ulp of 2^-24
 back = 2 * LEAST_WAY_ERROR + WAY
 fall = WOBBLE + CUTS + back * PER_FINE
-is_back = lambda t: 2 * (t / 2**TIME_BITS + LEAST_WAY_ERROR) + WAY - t / 2**24 > back
+is_back = lambda t: 2 * (t / 2**TIME_SHIFT + LEAST_WAY_ERROR) + WAY - t / 2**24 > back
 proven(f"cdf: a later time's place is at most {back} fine units earlier, its mass at most 2^{log2(fall):.2f} units and "
        "2^-35 of itself less: so its f32 by one ulp of at least that of 2^-24",
        not any(is_back(Fraction(2) ** k) for k in range(63)) and 2 * SHARE <= Fraction(1, 2**35),
        fall + 2 * SHARE * TRACE * 2**24 < TRACE < 4 * fall)
 moved, value = Fraction(LEAST_WAY_ERROR + WAY + 2, 2**61), (WOBBLE + CUTS + JOIN) / TRACE
 proven(f"cdf on a ramp: within {float(value + Fraction(1, 2)):.3f} ulp, of at least that of 2^-24, of the exact one at "
-       f"a time within 1/{2 ** (TIME_BITS - 24)} ulp and 2^{log2(moved):.2f} of the interval",
+       f"a time within 1/{2 ** (TIME_SHIFT - 24)} ulp and 2^{log2(moved):.2f} of the interval",
        value + SHARE * 2**24 + Fraction(1, 2) < 1 and moved < Fraction(1, 2**54))
 # On the plateau the area has 2^k to 2^(k+1) units, and the way to a time moves up by 61 - k, or one more for 2^k. Its
 # two ends are cut to units, one over the area has three roundings, and the product, low by less than 3, counts twice.

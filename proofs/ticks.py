@@ -1,6 +1,6 @@
 """From fractions to ticks: the order of fractions, the nearest tick, and how far off it is.
 
-Of `Fraction::of_parts`, `Ticks::fraction` and `around`, `Pulses::at`, `exponent_of_ticks`, `TickScale::new` and `tick`.
+Of `Fraction::of_parts`, `Frame::fraction`, `Pulses::at`, `exponent_of_ticks`, `TickScale::new` and `tick`.
 """
 
 from z3 import *

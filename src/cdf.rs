@@ -4,84 +4,88 @@
 //! up to a quarter of the way to the next time's, and 32 fine units, it may fall by an ulp (proofs/search.py).
 
 use crate::exposure::Exposure;
-use crate::fixed::{ONE, nearest, power_of_two, times};
+use crate::fixed::{ONE, power_of_two, rounded, times};
 use crate::fraction::Side::{self, End, Start};
 use crate::ramp::Ramp;
 
-/// Where a time lies on the curve.
-enum Section<'a> {
-    Before,
-    After,
-    Plateau,
-    /// On the ramp at a side: at a place, which is counted from the end that faces another side.
-    Ramp(Side, &'a Ramp, Side, u64),
+/// A place is searched to an error of its way, in fine units: this share of the time, a quarter ulp or less (a unit is
+/// one fine unit or more), and [`LEAST_WAY_ERROR`].
+// proofs/search.py
+const TIME_SHIFT: u32 = 26;
+const LEAST_WAY_ERROR: i64 = 32;
+
+/// A place on the ramp at a side, counted from the end that faces another side.
+struct Place<'a> {
+    side: Side,
+    ramp: &'a Ramp,
+    from: Side,
+    place: u64,
 }
 
-/// The section of a time.
+/// The place of a time between the curve's ends; none on the plateau.
 #[inline]
-fn section(exposure: &Exposure, t: f32) -> Section<'_> {
-    let [start, end] = [exposure.end_time(Start), exposure.end_time(End)];
+fn place(exposure: &Exposure, t: f32) -> Option<Place<'_>> {
     let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
-    if t < start || t.is_nan() {
-        return Section::Before;
-    } else if t > end {
-        return Section::After;
-    } else if open < close && t >= open && t <= close {
-        return Section::Plateau;
+    if open < close && t >= open && t <= close {
+        return None;
     }
     // The join of both ramps is on the opening one, if that has length.
-    let side = Side::end_if(t > open || start == open);
-    let (ramp, units) = (exposure.ramp(side), exposure.units());
-    let time = units.of(t);
-    // In fine units: a quarter ulp of `t` or less, and 32. (A unit is one or more of them.)
-    let error = (time.abs() >> 26) + 32;
-    let (from, place) = ramp.place_of_time(time, error, units);
-    Section::Ramp(side, ramp, from, place)
+    let side = Side::end_if(t > open || exposure.end_time(Start) == open);
+    let ramp = exposure.ramp(side);
+    let time = exposure.units.of(t);
+    let error = (time.abs() >> TIME_SHIFT) + LEAST_WAY_ERROR;
+    let (from, place) = ramp.place_of_time(time, error, exposure.units);
+    Some(Place { side, ramp, from, place })
 }
 
 /// The openness at `t`, in 2⁻⁶⁰.
 #[inline]
 fn openness_in_fixed(exposure: &Exposure, t: f32) -> i64 {
-    match section(exposure, t) {
-        Section::Before | Section::After => 0,
-        Section::Plateau => 1 << 60,
-        Section::Ramp(_, ramp, from, place) => ramp.openness_at(from, place),
+    if !(t >= exposure.end_time(Start) && t <= exposure.end_time(End)) {
+        return 0;
+    }
+    match place(exposure, t) {
+        Some(Place { ramp, from, place, .. }) => ramp.openness_at(from, place),
+        None => 1 << 60,
     }
 }
 
 /// The openness at `t`.
 #[inline]
 pub(crate) fn openness(exposure: &Exposure, t: f32) -> f32 {
-    nearest(openness_in_fixed(exposure, t)) * power_of_two(-60)
+    rounded(openness_in_fixed(exposure, t), power_of_two(-28))
 }
 
 /// The openness at `t` over the exposure.
 #[inline]
 pub(crate) fn pdf(exposure: &Exposure, t: f32) -> f32 {
     let (significand, up) = per_area(exposure);
-    nearest(times(openness_in_fixed(exposure, t) << 2, significand)) * power_of_two(-62) * power_of_two(up)
+    rounded(times(openness_in_fixed(exposure, t) << 2, significand), power_of_two(-30)) * power_of_two(up)
 }
 
 /// The fraction of the exposure collected by `t`.
 #[inline]
 pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
-    let fraction = match section(exposure, t) {
-        Section::Before => 0,
-        Section::After => ONE,
-        Section::Plateau => {
-            let way = exposure.in_units(t) - exposure.in_units(exposure.join_time(Start));
-            let (significand, up) = per_area(exposure);
-            // way / A · 2⁶². The last doubling is after the product, or the way would not fit.
-            let part = times(way << ((up + exposure.units().exponent + 61) & 63), significand) << 1;
-            exposure.ramp(Start).share + if part < exposure.plateau() { part } else { exposure.plateau() }
-        }
-        Section::Ramp(side, ramp, from, place) => {
+    if t >= exposure.end_time(End) {
+        return 1.0;
+    } else if !(t > exposure.end_time(Start)) {
+        return 0.0;
+    }
+    let fraction = match place(exposure, t) {
+        Some(Place { side, ramp, from, place }) => {
             let mass = ramp.mass_at(from, place);
             let part = if from.is_end() { ramp.share - mass } else { mass };
             if side.is_end() { ONE - ramp.share + part } else { part }
         }
+        None => {
+            let way = exposure.in_units(t) - exposure.in_units(exposure.join_time(Start));
+            let (significand, up) = per_area(exposure);
+            // way / A · 2⁶². The last doubling is after the product, or the way would not fit.
+            let part = times(way << ((up + exposure.units.exponent() + 61) & 63), significand) << 1;
+            exposure.ramp(Start).share + if part < exposure.plateau() { part } else { exposure.plateau() }
+        }
     };
-    nearest(fraction) * power_of_two(-62)
+    rounded(fraction, power_of_two(-30))
 }
 
 /// `(significand, up)`: one over the area is `significand / 2⁶⁴ · 2^up`.

@@ -5,12 +5,18 @@
 
 use crate::domain::{self, LEAST_EXPOSURE};
 use crate::error::{CurveError, tried};
-use crate::fixed::{ONE, Units, exponent, fixed_down, fixed_towards_0, power_of_two, times};
+use crate::fixed::{ONE, Units, fixed_down, fixed_towards_0, times};
 use crate::fraction::{Fraction, Side};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
-use crate::ramp::shape::Shape;
+use crate::ramp::shape::area;
 use crate::search::LEAST_ERROR;
+
+/// A search rounds its fraction to the nearest multiple of 2⁻⁴⁶: every `f32` from 2⁻²³ on is one. It errs by less than
+/// this share of that, and [`LEAST_ERROR`]: so neighbouring fractions keep their order.
+// proofs/search.py
+const GRID: u32 = 46;
+const ERROR_SHIFT: u32 = 27;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Exposure {
@@ -20,39 +26,31 @@ pub(crate) struct Exposure {
     /// The plateau's line, in units: its time continued to `u = 0`, and its slope, the area.
     pub(crate) line_base: i64,
     pub(crate) line_slope: i64,
-    /// The time of 2³² [`Units`].
-    pub(crate) time_of_word: f32,
-    /// [`Units::fine`]
-    fine: u32,
+    pub(crate) units: Units,
 }
 
 impl Exposure {
-    /// Checks both ramps, and integrates them. Returns their shapes, too, since octaves are built from those. Out of
-    /// line: all constructors share it.
+    /// Checks both ramps, and integrates them. Out of line: all constructors share it.
     #[inline(never)]
-    pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<(Self, [Shape; 2]), CurveError> {
+    pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
         tried!(domain::check(opening, closing));
-        let (first, last) = (opening.times(), closing.times());
-        let ([start, _, _, open], [close, _, _, end]) = (first, last);
+        let ([start, _, _, open], [close, _, _, end]) = (opening.times(), closing.times());
         let plateau = close as f64 - open as f64;
-        let shapes = [Shape::new(opening), Shape::new(closing)];
-        let areas = [shapes[0].area(), shapes[1].area()];
-        let area = (areas[0] + areas[1]) + plateau;
-        if area < LEAST_EXPOSURE * (end as f64 - start as f64) {
+        let areas = [area(opening), area(closing)];
+        let whole = (areas[0] + areas[1]) + plateau;
+        if whole < LEAST_EXPOSURE * (end as f64 - start as f64) {
             return Err(CurveError::DensityTooSmall);
         }
-        let near = fixed_towards_0(areas[0] / area, -62);
-        let far = if plateau > 0.0 { fixed_towards_0(areas[1] / area, -62) } else { ONE - near };
-        let (units, per_area) = (Units::new(start, end), 1.0 / area);
-        let ramps =
-            [Ramp::new(first, &shapes[0], per_area, near, units), Ramp::new(last, &shapes[1], per_area, far, units)];
+        let near = fixed_towards_0(areas[0] / whole, -62);
+        let far = if plateau > 0.0 { fixed_towards_0(areas[1] / whole, -62) } else { ONE - near };
+        let (units, per_area) = (Units::new(start, end), 1.0 / whole);
+        let ramps = [Ramp::new(opening, per_area, near, units), Ramp::new(closing, per_area, far, units)];
         // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. It is
         // off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes 2⁸ units
         // or more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
-        let line_base = units.of(open) - fixed_towards_0(areas[0], units.exponent);
-        let line_slope = units.of(close) + fixed_towards_0(areas[1], units.exponent) - line_base;
-        let (time_of_word, fine) = (power_of_two(units.exponent + 32), units.fine);
-        Ok((Self { ramps, per_area, line_base, line_slope, time_of_word, fine }, shapes))
+        let line_base = units.of(open) - fixed_towards_0(areas[0], units.exponent());
+        let line_slope = units.of(close) + fixed_towards_0(areas[1], units.exponent()) - line_base;
+        Ok(Self { ramps, per_area, line_base, line_slope, units })
     }
 
     pub(crate) const fn ramp(&self, side: Side) -> &Ramp {
@@ -79,16 +77,10 @@ impl Exposure {
         self.ramp(side).end_time(side.other())
     }
 
-    /// The units of this curve's times.
-    #[inline(always)]
-    pub(crate) const fn units(&self) -> Units {
-        Units { exponent: exponent(self.time_of_word) - 32, fine: self.fine }
-    }
-
     /// A time in units, rounded down.
     #[inline(never)]
     pub(crate) const fn in_units(&self, time: f32) -> i64 {
-        self.units().of(time)
+        self.units.of(time)
     }
 
     /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. What is
@@ -97,10 +89,8 @@ impl Exposure {
     #[inline(always)]
     pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {
         let (side, a) = (fraction.side, fraction.get());
-        // To the nearest multiple of 2⁻⁴⁶, as every `f32` from 2⁻²³ on is one.
-        let a = if a > 0.0 { ((fixed_down(a, -47) + 1) >> 1) << 16 } else { 0 };
-        // Small enough that neighbouring fractions keep their order (proofs/search.py).
-        let error = (a >> 27) + LEAST_ERROR;
+        let a = if a > 0.0 { ((fixed_down(a, -1 - GRID as i32) + 1) >> 1) << (62 - GRID) } else { 0 };
+        let error = (a >> ERROR_SHIFT) + LEAST_ERROR;
         let near = self.ramp(side).share;
         let (ramp, part) = if a < near {
             (side, a)
@@ -115,7 +105,7 @@ impl Exposure {
             (side.other(), a - near - self.plateau())
         };
         // One address, or the search keeps the curve's and an index on the stack.
-        core::hint::black_box(self.ramp(ramp)).time_of_part(side, part, error, self.units())
+        core::hint::black_box(self.ramp(ramp)).time_of_part(side, part, error, self.units)
     }
 
     /// The fractions at which the near ramp ends and the far ramp begins.

@@ -43,12 +43,12 @@ pub(crate) const fn times_up(a: i64, x: u64, shift: u32) -> i64 {
 }
 
 /// The units of a curve's times.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Units {
-    /// A *unit* is `2^exponent`. The curve's greatest |time|, or its interval if that is longer, has 2⁶¹ to 2⁶².
-    pub(crate) exponent: i32,
-    /// A *fine unit* is `2^(exponent - fine)`. The interval has 2⁶¹ to 2⁶². By `domain::LEAST_INTERVAL`, `fine` is at
-    /// most 17.
+    /// The time of 2³² *units*. The curve's greatest |time|, or its interval if that is longer, has 2⁶¹ to 2⁶² units.
+    pub(crate) word: f32,
+    /// A unit is `2^fine` *fine units*, of which the interval has 2⁶¹ to 2⁶². By `domain::LEAST_INTERVAL`, `fine` is
+    /// at most 17.
     pub(crate) fine: u32,
 }
 
@@ -60,14 +60,21 @@ impl Units {
         let (start, end) = (start as f64, end as f64);
         let most = if start.abs() > end.abs() { start.abs() } else { end.abs() };
         let most = if end - start > most { end - start } else { most };
-        Self { exponent: exponent(most), fine: (exponent(most) - exponent(end - start)) as u32 }
+        let fine = (exponent(most) - exponent(end - start)) as u32;
+        Self { word: power_of_two(exponent(most) + 32), fine }
+    }
+
+    /// A unit is the time `2^exponent`.
+    #[inline(always)]
+    pub(crate) const fn exponent(self) -> i32 {
+        exponent(self.word) - 32
     }
 
     /// A time in units, rounded down. It is exact where `fine` is 2 or more: no time is then nearer to 0 than a fourth
     /// of the greatest.
     #[inline(always)]
     pub(crate) const fn of(self, time: f32) -> i64 {
-        fixed_down(time, self.exponent)
+        fixed_down(time, self.exponent())
     }
 
     /// From units to fine units.
@@ -86,21 +93,18 @@ impl Units {
 /// `x / 2^e`, which has to be below 2⁶³, rounded down; `e` is at least -125, so a subnormal `x` is less than one.
 // proofs/words.py: fixed_down
 pub(crate) const fn fixed_down(x: f32, e: i32) -> i64 {
-    let (significand, down) = scaled(x, e);
-    (if x < 0.0 { -significand } else { significand }) >> down
-}
-
-/// The same of an `|x|`.
-pub(crate) const fn magnitude(x: f32, e: i32) -> i64 {
-    let (significand, down) = scaled(x, e);
-    significand >> down
-}
-
-/// `(s, down)`: `|x| / 2^e` is about `s / 2^down`; down by 63 or more it is 63, and less than one.
-#[inline(always)]
-const fn scaled(x: f32, e: i32) -> (i64, u32) {
+    let significand = ((x.to_bits() & 0x7F_FFFF | 1 << 23) as i64) << 39;
     let down = 62 + e - exponent(x);
-    (((x.to_bits() & 0x7F_FFFF | 1 << 23) as i64) << 39, if down < 63 { down as u32 & 63 } else { 63 })
+    // Down by 63 or more it is less than one.
+    (if x < 0.0 { -significand } else { significand }) >> if down < 63 { down as u32 & 63 } else { 63 }
+}
+
+/// An `x` from 0 to 1 in 2⁻⁶⁰, rounded down: by halves, each exact, as an FPU converts 32 bits.
+#[inline(always)]
+pub(crate) const fn in_2_60(x: f32) -> i64 {
+    let half = power_of_two(30);
+    let upper = (x * half) as i32;
+    ((upper as i64) << 30) + ((x * half - upper as f32) * half) as i32 as i64
 }
 
 /// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN.
@@ -149,13 +153,36 @@ pub(crate) fn upper_word(x: i64) -> Option<i32> {
     has_enough.then_some(high | (x as u32 != 0) as i32)
 }
 
-/// `x` rounded once to an `f32`.
+/// `x` as an `f32`, rounded once, where 2³² of it are `word`, a power of two from 2⁻⁹³ on.
 #[inline(always)]
-pub(crate) fn nearest(x: i64) -> f32 {
+pub(crate) fn rounded(x: i64, word: f32) -> f32 {
     match upper_word(x) {
-        Some(high) => high as f32 * WORD,
-        None => x as f32,
+        Some(high) => high as f32 * word,
+        None => rounded_near_0_cold(x, word),
     }
+}
+
+/// [`rounded_near_0`] where it is seldom needed.
+#[cold]
+#[inline(never)]
+fn rounded_near_0_cold(x: i64, word: f32) -> f32 {
+    rounded_near_0(x, word)
+}
+
+/// The same of an `x` of fewer than 26 bits in its upper word. (`x as f32` would be a call.)
+// proofs/words.py
+#[inline(always)]
+pub(crate) fn rounded_near_0(x: i64, word: f32) -> f32 {
+    // One word moves up by 31, which keeps its sign.
+    let sign = (x >> 63) as i32;
+    let is_word = (x >> 32) as i32 == sign;
+    let (x, moved) = if is_word { (x << 31, 31) } else { (x, 0) };
+    let (high, low) = ((x >> 32) as i32, x as u32);
+    // Then up until the upper word is full. The lower word moves by 32 - up, which may be 32.
+    let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
+    let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
+    // Two factors: their product may not be normal. The answer is, or 0.
+    filled as f32 * power_of_two(-((moved + up) as i32)) * word
 }
 
 /// `2^n`, a normal number.

@@ -22,10 +22,10 @@
 
 use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
-use crate::fixed::{LINE_FROM, floor_bits, upper_word};
+use crate::fixed::{EIGHTH, LINE_FROM, floor_bits, rounded, rounded_near_0, upper_word};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
-use crate::octave::{self, Octave, build};
+use crate::octave::{Octave, build};
 use crate::ramp::bezier::CubicBezier;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
         // So a fraction of 0 finds no octave: its index is a top's exponent, 105 or more (`LEAST_TOP`).
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
-        let (exposure, shapes) = tried!(Exposure::new(opening, closing));
+        let exposure = tried!(Exposure::new(opening, closing));
         let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
         let mut this = Self {
             exposure,
@@ -61,11 +61,11 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
             tops: [[0; 2]; 2],
             octaves: [[Octave::NONE; OCTAVES]; 2],
         };
-        let mut side = 0;
+        let (ramps, mut side) = ([*opening, *closing], 0);
         // `OCTAVES > 0` leaves the code that builds octaves out where there are none.
         while OCTAVES > 0 && side < 2 {
             let octaves = &mut this.octaves[side];
-            this.tops[side] = build::build(&this.exposure, &shapes, Side::BOTH[side], octaves);
+            this.tops[side] = build::build(&this.exposure, &ramps, Side::BOTH[side], octaves);
             side += 1;
         }
         Ok(this)
@@ -79,14 +79,14 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // The line counts `u` from the start, up to its last `f32`: so it is tried before the nearer end is known.
         let ramp = match self.section(Start, u.to_bits()) {
-            Section::Line(time) => return self.rounded(time),
+            Section::Line(time) => return rounded(time, self.exposure.units.word),
             Section::Ramp(ramp) => ramp,
         };
-        let fraction = Fraction::new(u);
-        let (time, scale) = match self.by_octave(fraction, ramp) {
+        let word = self.exposure.units.word;
+        let (time, scale) = match self.by_octave(Fraction::new(u), ramp) {
             Some(time) => match upper_word(time) {
-                Some(time) => (time as f32, self.exposure.time_of_word),
-                None => (self.rounded_near_0(time), 1.0),
+                Some(high) => (high as f32, word),
+                None => (rounded_near_0(time, word), 1.0),
             },
             None => (f32::from_bits(self.searched_bits(u)), 1.0),
         };
@@ -115,10 +115,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     /// How many evaluations of the mass [`inverse_cdf`](Self::inverse_cdf) takes; none where it does not search.
     #[cfg(feature = "_measure")]
     pub(crate) fn evaluations(&self, u: f32) -> Option<u32> {
-        let Section::Ramp(ramp) = self.section(Start, u.to_bits()) else { return None };
-        let fraction = Fraction::new(u);
-        let is_direct = self.by_octave(fraction, ramp).is_some();
-        if is_direct { None } else { Some(self.exposure.time_units(fraction).1) }
+        let (fraction, section) = (Fraction::new(u), self.section(Start, u.to_bits()));
+        let is_searched = matches!(section, Section::Ramp(ramp) if self.by_octave(fraction, ramp).is_none());
+        is_searched.then(|| self.exposure.time_units(fraction).1)
     }
 
     /// The section of a fraction from a side, which has these bits.
@@ -196,7 +195,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let (side, a) = if u > 0.5 { (End, 1.0 - u) } else { (Start, u) };
         let end = self.exposure.end_time(side);
         if a > 0.0 {
-            let time = self.rounded(self.exposure.time_units(Fraction { side, bits: a.to_bits() }).0);
+            let (time, _) = self.exposure.time_units(Fraction { side, bits: a.to_bits() });
+            let time = rounded(time, self.exposure.units.word);
             // In units the start is rounded down.
             let start = self.exposure.end_time(Start);
             (if time > start { time } else { start }).to_bits()
@@ -205,56 +205,18 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         }
     }
 
-    /// A time in units, of fewer than 26 bits in its upper word, as an `f32` in the user's unit, rounded once.
-    // proofs/words.py
-    #[inline(always)]
-    fn rounded_near_0(&self, time: i64) -> f32 {
-        // A time of one word moves up by 31, which keeps its sign.
-        let sign = (time >> 63) as i32;
-        let is_word = (time >> 32) as i32 == sign;
-        let (time, moved) = if is_word { (time << 31, 31) } else { (time, 0) };
-        let (high, low) = ((time >> 32) as i32, time as u32);
-        // Then up until the upper word is full. The lower word moves by 32 - up, which may be 32.
-        let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
-        let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
-        // Two factors: their product may not be normal. The answer is, or 0, as a unit is at least 2⁻¹²⁵.
-        filled as f32 * f32::from_bits((127 - moved - up) << 23) * self.exposure.time_of_word
-    }
-
-    /// A time in units as an `f32` in the user's unit, rounded once.
-    #[inline(always)]
-    fn rounded(&self, time: i64) -> f32 {
-        match upper_word(time) {
-            Some(time) => time as f32 * self.exposure.time_of_word,
-            None => self.rounded_near_0_cold(time),
-        }
-    }
-
-    /// [`rounded_near_0`](Self::rounded_near_0) where it is seldom needed.
-    #[cold]
-    #[inline(never)]
-    fn rounded_near_0_cold(&self, time: i64) -> f32 {
-        self.rounded_near_0(time)
-    }
-
-    /// No fraction from a side that is above this, up to 1/2, needs a search: down from 1/2, by the line and by octaves
-    /// as an answer finds them.
+    /// No fraction from a side that is above this, up to 1/2, needs a search.
+    ///
+    /// Tops are multiples of an eighth of a power of two, and so is [`LINE_FROM`]. From one multiple to the next only a
+    /// join can lie between: so all fractions there are as direct as the first and the last.
     pub(crate) const fn least_direct(&self, side: Side) -> f32 {
-        let [count, last] = self.line_bits[side as usize];
         let mut bits = 0.5f32.to_bits();
         loop {
-            bits = match self.section(side, bits) {
-                Section::Line(_) => last - count,
-                Section::Ramp(ramp) => match self.look_up(Fraction { side, bits }, ramp) {
-                    Some((octave, _)) if octave.exists() => {
-                        let top = self.tops[side as usize][ramp as usize];
-                        let end = octave::top_at(top, (top.wrapping_sub(bits) >> 23) as usize + 1);
-                        // A far ramp ends at its join.
-                        if !ramp.is(side) && end < last { last } else { end }
-                    }
-                    _ => return f32::from_bits(bits),
-                },
+            let [last, first] = [Fraction { side, bits }, Fraction { side, bits: bits - EIGHTH + 1 }];
+            if self.direct_units(last).is_none() || self.direct_units(first).is_none() {
+                return f32::from_bits(bits);
             }
+            bits -= EIGHTH;
         }
     }
 }

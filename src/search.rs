@@ -55,14 +55,14 @@ impl<const N: usize> Series<'_, N> {
         // Not to the other end, where the slope may be 0. A later step may lead there, and the next one back.
         let mut p = place(if guess < 0.75 { guess } else { 0.75 });
         let (mut low, mut high, mut evaluations) = (0, u64::MAX, 0);
-        let (mut left, mut is_far) = (0.0, true);
+        let (mut missing, mut is_far) = (0.0, true);
         loop {
             evaluations += 1;
             let x = single_place(p);
             if is_far {
-                left = sought - value(&c, x);
+                missing = sought - value(&c, x);
             }
-            let step = step(&c, x, left);
+            let step = step(&c, x, missing);
             let size = place(step.abs());
             // Half way to the end, where the step would leave.
             let room = if step < 0.0 { p } else { u64::MAX - p };
@@ -75,15 +75,15 @@ impl<const N: usize> Series<'_, N> {
             if evaluations >= FREE_STEPS {
                 p = low + (high - low) / 2;
             }
-            let missing = target - self.at(p);
-            let size = missing.abs();
+            let measured = target - self.at(p);
+            let size = measured.abs();
             if size <= error || evaluations >= MAX_EVALUATIONS {
                 return (p, evaluations);
             }
             if evaluations >= FREE_STEPS {
-                *(if missing > 0 { &mut low } else { &mut high }) = p;
+                *(if measured > 0 { &mut low } else { &mut high }) = p;
             }
-            left = single(size) * if missing > 0 { unit } else { -unit };
+            missing = single(size) * if measured > 0 { unit } else { -unit };
         }
     }
 }
@@ -137,7 +137,7 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// [`power`] comes out too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as
+/// [`from_log`] comes out too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as
 /// often too small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
@@ -153,7 +153,7 @@ const fn guess(c: &[f32], sought: f32) -> f32 {
         least = if root < least { root } else { least };
         i += 1;
     }
-    power(least - MIDDLE)
+    from_log(least - MIDDLE)
 }
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand. 0 is taken
@@ -170,7 +170,7 @@ const fn divided(x: i32, k: i32) -> i32 {
 }
 
 /// The number with this linear logarithm, at least 0; beyond all `f32` it is infinite or NaN.
-const fn power(log: i32) -> f32 {
+const fn from_log(log: i32) -> f32 {
     let log = log + 127 * LOG_ONE;
     let log = if log < 0 { 0 } else { log };
     f32::from_bits(if log < 1 << 28 { (log as u32) << 3 } else { f32::INFINITY.to_bits() })

@@ -204,6 +204,10 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.inverse.exposure.end_time(Side::End)
     }
 
+    const fn times(&self) -> [f32; 4] {
+        [self.open_start(), self.open_end(), self.close_start(), self.close_end()]
+    }
+
     /// The openness at the time `t`, from 0 to 1. It is 0 before `open_start`, after `close_end`, and for NaN.
     ///
     /// ```
@@ -326,44 +330,24 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         TimedCurve::new(&self.inverse, rate, self.exposure())
     }
 
-    /// Whether [`inverse_cdf`](Self::inverse_cdf) answers `u` without a search.
+    /// The number of search steps that [`inverse_cdf`](Self::inverse_cdf) takes for `u`; none if it needs no search.
     #[cfg(feature = "_measure")]
     #[must_use]
-    pub fn is_direct(&self, u: f32) -> bool {
-        self.inverse.evaluations(u).is_none()
-    }
-
-    /// The number of search steps that [`inverse_cdf`](Self::inverse_cdf) takes for `u`; 0 if it needs no search.
-    #[cfg(feature = "_measure")]
-    #[must_use]
-    pub fn evaluations(&self, u: f32) -> u32 {
-        self.inverse.evaluations(u).unwrap_or(0)
+    pub fn evaluations(&self, u: f32) -> Option<u32> {
+        self.inverse.evaluations(u)
     }
 }
 
 impl<const OCTAVES: usize> fmt::Debug for ShutterCurve<OCTAVES> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.debug_struct("ShutterCurve")
-            .field("open_start", &self.open_start())
-            .field("open_end", &self.open_end())
-            .field("close_start", &self.close_start())
-            .field("close_end", &self.close_end())
-            .field("exposure", &self.exposure())
-            .finish_non_exhaustive()
+        let mut out = out.debug_struct("ShutterCurve");
+        out.field("times", &self.times()).field("exposure", &self.exposure()).finish_non_exhaustive()
     }
 }
 
 #[cfg(feature = "defmt")]
 impl<const OCTAVES: usize> defmt::Format for ShutterCurve<OCTAVES> {
     fn format(&self, out: defmt::Formatter<'_>) {
-        defmt::write!(
-            out,
-            "ShutterCurve {{ open_start: {}, open_end: {}, close_start: {}, close_end: {}, exposure: {}, .. }}",
-            self.open_start(),
-            self.open_end(),
-            self.close_start(),
-            self.close_end(),
-            self.exposure()
-        );
+        defmt::write!(out, "ShutterCurve {{ times: {}, exposure: {}, .. }}", self.times(), self.exposure());
     }
 }

@@ -1,19 +1,24 @@
 //! The octaves of a side: which part of a ramp each serves. A candidate is kept if it has a certificate.
 
 use crate::exposure::Exposure;
-use crate::fixed::{EIGHTH, LEAST_TOP, LINE_FROM, floor_bits};
+use crate::fixed::{EIGHTH, LEAST_TOP, LINE_FROM, floor_bits, power_of_two};
 use crate::fraction::Side;
 use crate::octave::candidate::candidate;
 use crate::octave::certificate::certificate;
 use crate::octave::path::Path;
 use crate::octave::span::Span;
 use crate::octave::{Octave, top_at};
-use crate::ramp::shape::Shape;
+use crate::ramp::bezier::CubicBezier;
 
 /// By how many eighths a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
 /// one that leaves least to a search. (The octave at the join is often too much for a polynomial; from a raised top it
 /// has less of the ramp.) Found by trial.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
+
+/// The top of a ramp without octaves. Of every fraction, and of NaN, the index is 64 or more, though the near ramp's top
+/// is raised by as many octaves as the far ramp has.
+// proofs/octaves.py
+const NO_OCTAVES: u32 = power_of_two(63).to_bits();
 
 /// The least and the greatest `a` for which a ramp has octaves, at most 1/2; none if they are not in order.
 pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 2] {
@@ -31,12 +36,17 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
 /// Builds the octaves of a side: the far ramp's, then the near ramp's. Returns the bits of the ramps' tops at index 0.
 // Out of line, with a slice: one copy for any number of octaves.
 #[inline(never)]
-pub(crate) const fn build(exposure: &Exposure, shapes: &[Shape; 2], side: Side, octaves: &mut [Octave]) -> [u32; 2] {
+pub(crate) const fn build(
+    exposure: &Exposure,
+    ramps: &[CubicBezier; 2],
+    side: Side,
+    octaves: &mut [Octave],
+) -> [u32; 2] {
     let (mut tops, mut first, mut i) = ([0; 2], 0, 0);
     while i < 2 {
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
-        let (top, count) = on_ramp(&Path::new(exposure, shapes, side, ramp), rest);
+        let (top, count) = on_ramp(&Path::new(exposure, ramps, side, ramp), rest);
         tops[ramp as usize] = top + ((first as u32) << 23);
         first += count;
         i += 1;
@@ -49,53 +59,42 @@ pub(crate) const fn build(exposure: &Exposure, shapes: &[Shape; 2], side: Side, 
 const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     let range = range(path.exposure, path.side, path.ramp);
     if range[0] >= range[1] {
-        // So a search has to answer. A far ramp then begins at 1/2 or later, and is never looked up. A near ramp is, by
-        // fractions up to LINE_FROM (see `range`): with a top above these, their octaves are NONE.
-        let far = path.exposure.join_fractions(path.side)[1];
-        return (top_beyond([0.0, if far < LINE_FROM as f64 { far } else { LINE_FROM as f64 }], 0), 0);
+        return (NO_OCTAVES, 0);
     }
-    // Each move until something is missing, then each to its end, then the best again.
+    // Each move, then the best again.
     let (mut trial, mut best, mut most) = (0, 0, 0.0);
     loop {
-        let is_last = trial == 2 * MOVES.len();
-        let tried = if is_last { best } else { trial % MOVES.len() };
-        let top = top_beyond(range, MOVES[tried]);
-        let (count, served, is_whole) = try_top(path, top, trial < MOVES.len(), range, octaves);
+        let is_last = trial == MOVES.len();
+        let top = top_beyond(range, MOVES[if is_last { best } else { trial }]);
+        let (count, served, is_whole) = try_top(path, top, range, octaves);
         if is_whole || is_last {
             return (top, count);
         }
-        if trial >= MOVES.len() && served > most {
-            (best, most) = (tried, served);
+        if served > most {
+            (best, most) = (trial, served);
         }
         trial += 1;
     }
 }
 
-/// Builds the octaves on a ramp from a first top on; on demand only until one has no polynomial. Returns their number,
-/// what part of the exposure their polynomials serve, and whether none is missing. What is
-/// served before a first missing one counts 1024 times, so that `direct_triggers` comes first.
+/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what part of the exposure
+/// their polynomials serve, and whether none is missing. What is served before a first missing one counts 1024 times,
+/// so that `direct_triggers` comes first.
 #[inline(never)]
-const fn try_top(
-    path: &Path,
-    first: u32,
-    until_missing: bool,
-    range: [f64; 2],
-    octaves: &mut [Octave],
-) -> (usize, f32, bool) {
+const fn try_top(path: &Path, first: u32, range: [f64; 2], octaves: &mut [Octave]) -> (usize, f32, bool) {
     let (mut index, mut count, mut served, mut is_whole) = (0, 0, 0.0, true);
-    while index < octaves.len() && (is_whole || !until_missing) {
+    while index < octaves.len() {
         octaves[index] = Octave::NONE;
         let top = top_at(first, index);
-        if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
-            // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else a far
-            // ramp's `a` there would find the near ramp's first octave. An example in units of LEAST_TOP: the join
-            // is at 0.7, and the far ramp's last tops are 7/4 and 7/8. An `a` of 0.8, below 7/8, is on that ramp.
+        if f32::from_bits(top) as f64 > range[0] {
+            // With a polynomial or without: a far ramp's fractions must not find the near ramp's octaves.
             count = index + 1;
         }
         if let Some(span) = Span::new(range, top) {
-            octaves[index] = certified(path, &span);
+            let part = span.to - span.from as f32;
+            octaves[index] = certified(path, span);
             if octaves[index].exists() {
-                served += (span.to - span.from as f32) * if is_whole { 1024.0 } else { 1.0 };
+                served += part * if is_whole { 1024.0 } else { 1.0 };
             } else {
                 is_whole = false;
             }
@@ -107,11 +106,10 @@ const fn try_top(
 
 /// The octave of a span, without a polynomial if the candidate has no certificate.
 #[inline(never)]
-const fn certified(path: &Path, span: &Span) -> Octave {
+const fn certified(path: &Path, span: Span) -> Octave {
     let stretch = path.stretch(span);
-    let Some(candidate) = candidate(path, span, &stretch) else { return Octave::NONE };
-    let errors = certificate(path, &candidate, span, &stretch);
-    if errors.are_certain() { candidate.octave } else { Octave::NONE }
+    let Some(candidate) = candidate(path, &stretch) else { return Octave::NONE };
+    if certificate(path, &candidate, &stretch).are_certain() { candidate.octave } else { Octave::NONE }
 }
 
 /// The bits of a ramp's first top: the least that is at or above the range's end, raised by so many eighths, or by one

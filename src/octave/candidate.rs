@@ -2,7 +2,6 @@
 
 use crate::fixed::{exponent, fixed_towards_0, power_of_two_f64};
 use crate::octave::path::{Path, Stretch, root, singles, value};
-use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
 
 /// Chebyshev's nodes on [-1, 1]: interpolating there comes within a small factor of the best polynomial.
@@ -14,25 +13,27 @@ pub(crate) const NODES: [f32; DEGREE + 1] =
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
+/// What a time is off by, in units, as the side's end is rounded down. A neighbour that is searched needs no more to
+/// stay in order (proofs/search.py).
+const UNITS_OFF: f32 = 1.0;
+
 /// An octave, and how its polynomial is held against the exact time.
 pub(crate) struct Candidate {
     pub(crate) octave: Octave,
     /// The time of the octave's middle since the side's end.
     pub(crate) middle_time: f64,
-    /// The unit of the coefficients, as a time: `2^unit_exponent` times the factor's size. Errors count in these
-    /// *steps*.
-    pub(crate) step: f64,
-    /// A bound of the polynomial's slope, in steps for a width.
-    pub(crate) slope_bound_steps: f32,
-    /// What rounding adds to its time, in steps: Horner's, and a unit of time, as the side's end is rounded down. A
-    /// neighbour that is searched needs no more to stay in order (proofs/search.py).
-    pub(crate) truncation_steps: f32,
+    /// The unit of the coefficients, as a time: the factor's size, in units of time.
+    pub(crate) lsb: f64,
+    /// A bound of the polynomial's slope, in lsb for a width.
+    pub(crate) slope_bound_lsb: f32,
+    /// What rounding adds to its time, in lsb: Horner's, and that of the side's end.
+    pub(crate) truncation_lsb: f32,
 }
 
-/// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which Horner's
+/// The polynomial along a stretch. The unit of its coefficients, the *lsb*, is the least power of two in which Horner's
 /// sums fit 32 bits, but at least a unit of time. None if its numbers are out of range.
-pub(crate) const fn candidate(path: &Path, span: &Span, stretch: &Stretch) -> Option<Candidate> {
-    let c = interpolated(span, stretch);
+pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidate> {
+    let (span, c) = (&stretch.span, interpolated(stretch));
     // |x| <= reach, with room for a center's rounding.
     let reach = span.half / span.width + 0.01;
     // Horner's rule without signs, for the values and the slope.
@@ -50,21 +51,21 @@ pub(crate) const fn candidate(path: &Path, span: &Span, stretch: &Stretch) -> Op
     if !(most > 0.0 && most < f32::MAX) {
         return None;
     }
-    let (exponent, units) = (exponent(most) - 30, path.exposure.units());
-    let exponent = if exponent < units.exponent { units.exponent } else { exponent };
+    let unit = path.exposure.units.exponent();
+    let up = exponent(most) - 30 - unit;
+    let up = if up > 0 { up } else { 0 };
     // The factor is an `i32`.
-    if exponent - units.exponent > 30 {
+    if up > 30 {
         return None;
     }
-    let step = power_of_two_f64(exponent);
-    let factor = 1 << (exponent - units.exponent);
-    let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
+    let (factor, lsb) = (1 << up, power_of_two_f64(unit + up));
+    let mut octave = Octave { center: span.center() as i32, ..Octave::NONE };
     let mut k = DEGREE;
     while k > 0 {
-        octave.c[DEGREE - k] = rounded(c[k], exponent);
+        octave.c[DEGREE - k] = rounded(c[k], unit + up);
         k -= 1;
     }
-    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * step, units.exponent);
+    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * lsb, unit);
     // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
     if middle.unsigned_abs() > 1 << 62 {
         return None;
@@ -74,17 +75,17 @@ pub(crate) const fn candidate(path: &Path, span: &Span, stretch: &Stretch) -> Op
     octave.factor = if path.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,
-        middle_time: middle as f64 * power_of_two_f64(units.exponent),
-        step,
-        slope_bound_steps: slope_bound / step as f32,
-        truncation_steps: HALF_TRUNCATION + 1.0 / factor as f32,
+        middle_time: middle as f64 * power_of_two_f64(unit),
+        lsb,
+        slope_bound_lsb: slope_bound / lsb as f32,
+        truncation_lsb: HALF_TRUNCATION + UNITS_OFF / factor as f32,
     })
 }
 
 /// The time since the side's end as a polynomial of `x` in widths, coefficients from the constant up.
 #[inline(never)]
-const fn interpolated(span: &Span, stretch: &Stretch) -> [f64; DEGREE + 1] {
-    let (center, per_position) = span.offsets();
+const fn interpolated(stretch: &Stretch) -> [f64; DEGREE + 1] {
+    let (center, per_position) = stretch.span.offsets();
     let mut offset = singles(&stretch.position, center, per_position);
     let [x0, x1, x2, x3, x4, x5, x6] = offset;
     // x(±1) = even ± odd: the node `n` is at x = even + odd n.

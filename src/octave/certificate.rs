@@ -4,10 +4,9 @@
 //! over the area, the error in exposure. With what rounding adds, both are held against their limits.
 
 use crate::fixed::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{FIRST_STRIDE, KINDS, POSITION_BITS, SAMPLE_OFF, TIME_BITS, count, errors};
+use crate::octave::bound::{POSITION_BITS, SAMPLE_OFF, TIME_BITS, errors, to_fixed};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, Stretch, absolute, scale, singles, value};
-use crate::octave::span::Span;
 
 /// Below 0.19 ulp of a time; in an interval of 2²⁴ ticks below 0.19 tick (see [`Path::size_of_time`]).
 pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
@@ -57,77 +56,73 @@ impl ErrorOverLimit {
 
 /// The errors of a candidate on its stretch.
 #[inline(never)]
-pub(crate) const fn certificate(path: &Path, candidate: &Candidate, span: &Span, stretch: &Stretch) -> ErrorOverLimit {
-    let Candidate { ref octave, middle_time, step, slope_bound_steps, .. } = *candidate;
-    let mut time_steps = stretch.time;
-    time_steps[0] -= middle_time;
-    scale(&mut time_steps, 1.0 / step, 1.0);
-    let per_step = PerStep::new(path, candidate, span, stretch, &time_steps);
-    let weights = [[1.0, 0.0, 0.0, 0.0], per_step.backward];
-    let (center, per_position) = span.offsets();
+pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &Stretch) -> ErrorOverLimit {
+    let Candidate { ref octave, middle_time, lsb, slope_bound_lsb, .. } = *candidate;
+    let mut time_lsb = stretch.time;
+    time_lsb[0] -= middle_time;
+    scale(&mut time_lsb, 1.0 / lsb, 1.0);
+    let per_lsb = PerLsb::new(path, candidate, stretch, &time_lsb);
+    let (center, per_position) = stretch.span.offsets();
     // An offset beyond its word would wrap. It is greatest at an end.
     let [x0, x1, x2, x3, x4, x5, x6] = singles(&stretch.position, center, per_position);
     if (x0 + x2 + x4 + x6).abs() + (x1 + x3 + x5).abs() >= MOST_OFFSET {
         return ErrorOverLimit::REFUSED;
     }
     let (mut position, mut time) = ([0; 7], [0; 4]);
-    if !(count(&stretch.position, POSITION_BITS, &mut position) & count(&time_steps, TIME_BITS, &mut time)) {
+    if !(to_fixed(&stretch.position, POSITION_BITS, &mut position) & to_fixed(&time_lsb, TIME_BITS, &mut time)) {
         return ErrorOverLimit::REFUSED;
     }
     // Rounding counts twice: a sample has its own, and so has the answer, in `bounds`. A sample's position is rounded
     // by 1/2 and a trace.
-    let noise = per_step.rounding_steps + 0.5002 * slope_bound_steps * per_position as f32;
-    let mut stride = FIRST_STRIDE;
-    loop {
-        let (least, most) = errors(octave, &position, &time, &weights, noise, stride);
-        let bounds = per_step.bounds(most);
-        // More samples cannot help where those seen are too wrong.
-        if bounds.are_certain() || stride == 1 || !per_step.bounds(least).are_certain() {
-            return bounds;
-        }
-        stride /= 2;
+    let noise = per_lsb.rounding_lsb + 0.5002 * slope_bound_lsb * per_position as f32;
+    // Half of the points are mostly enough.
+    let half = per_lsb.bounds(errors(octave, &position, &time, &per_lsb.backward, noise, 2));
+    if half.are_certain() {
+        return half;
     }
+    per_lsb.bounds(errors(octave, &position, &time, &per_lsb.backward, noise, 1))
 }
 
-/// What an error in time of one step comes to, over the limits of [`ErrorOverLimit`], and what [`bounds`](Self::bounds)
+/// What an error in time of one lsb comes to, over the limits of [`ErrorOverLimit`], and what [`bounds`](Self::bounds)
 /// needs besides. Arrays are polynomials of `s` along a stretch.
-struct PerStep {
+struct PerLsb {
     forward: f32,
     /// On the ramp.
     backward: [f32; 4],
     /// Where the way from the exact time to the polynomial's lies beyond the ramp's join or crosses it: as if all of it
     /// were at openness 1. 0 if the stretch does not reach the join, or the curve ends there.
     backward_beyond: f32,
-    /// What rounding adds to an error in time, in steps.
-    rounding_steps: f32,
-    /// The time along the stretch, in steps.
-    time_steps: [f32; 4],
+    /// What rounding adds to an error in time, in lsb.
+    rounding_lsb: f32,
+    /// The time along the stretch, in lsb.
+    time_lsb: [f32; 4],
 }
 
-impl PerStep {
+impl PerLsb {
     #[inline(never)]
-    const fn new(path: &Path, candidate: &Candidate, span: &Span, stretch: &Stretch, time_steps: &[f64; 4]) -> Self {
-        let Candidate { step, slope_bound_steps, truncation_steps, .. } = *candidate;
-        let (exposure, ends) = (path.exposure, [value(&stretch.time, -1.0), value(&stretch.time, 1.0)]);
+    const fn new(path: &Path, candidate: &Candidate, stretch: &Stretch, time_lsb: &[f64; 4]) -> Self {
+        let Candidate { lsb, slope_bound_lsb, truncation_lsb, .. } = *candidate;
+        let (exposure, span) = (path.exposure, &stretch.span);
+        let ends = [value(&stretch.time, -1.0), value(&stretch.time, 1.0)];
         let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
         // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
         let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
-        let backward = step * exposure.per_area / (ULP_ERROR * ulp - fraction_off) as f64;
+        let backward = lsb * exposure.per_area / (ULP_ERROR * ulp - fraction_off) as f64;
         let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, backward);
-        let [t0, t1, t2, t3, ..] = singles(time_steps, 0.0, 1.0);
+        let [t0, t1, t2, t3, ..] = singles(time_lsb, 0.0, 1.0);
         // The least size is that of an end.
         let [first, last] = [path.size_of_time(ends[0]), path.size_of_time(ends[1])];
         let size = if first < last { first } else { last };
         let goes_on = exposure.join_time(path.ramp) != exposure.end_time(path.ramp.other());
         Self {
-            forward: step as f32 / size / FORWARD_ERROR,
+            forward: lsb as f32 / size / FORWARD_ERROR,
             backward: [f0, f1, f2, f3],
             backward_beyond: if stretch.is_joined && goes_on { backward as f32 } else { 0.0 },
-            rounding_steps: truncation_steps
+            rounding_lsb: truncation_lsb
                 + SAMPLE_OFF
-                + slope_bound_steps * fraction_off / span.width
-                + (ends[1] / step) as f32 * TIME_OFF,
-            time_steps: [t0, t1, t2, t3],
+                + slope_bound_lsb * fraction_off / span.width
+                + (ends[1] / lsb) as f32 * TIME_OFF,
+            time_lsb: [t0, t1, t2, t3],
         }
     }
 
@@ -136,12 +131,12 @@ impl PerStep {
     /// The error in exposure is the integral of the openness from the exact time to the polynomial's, and on that way
     /// it may be greater than at the place itself.
     #[inline(never)]
-    const fn bounds(&self, [time_error, exposure_error]: [f32; KINDS]) -> ErrorOverLimit {
-        let error = time_error + self.rounding_steps;
-        let rounding = self.rounding_steps + error * WEIGHT_OFF;
+    const fn bounds(&self, (time_error, exposure_error): (f32, f32)) -> ErrorOverLimit {
+        let error = time_error + self.rounding_lsb;
+        let rounding = self.rounding_lsb + error * WEIGHT_OFF;
         // most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if that is inside, or at
         // an end.
-        let [_, t1, t2, t3] = self.time_steps;
+        let [_, t1, t2, t3] = self.time_lsb;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
         let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
         let slowest = slowest - most / (1 << 20) as f32;

@@ -37,7 +37,7 @@ pub(crate) struct Octave {
     /// A power of two, at most 2³⁰, or minus that from the later side; 0 where there is no polynomial.
     pub(crate) factor: i32,
     /// A position. Its lowest 5 bits are the shift as well.
-    pub(crate) center: u32,
+    pub(crate) center: i32,
     /// The coefficients from the highest down: `P(x) = c[0] x⁸ + ... + c[6] x² + c[7] x`.
     pub(crate) c: [i32; DEGREE],
 }
@@ -45,7 +45,7 @@ pub(crate) struct Octave {
 pub(crate) const DEGREE: usize = 8;
 
 /// The bits of a center that are its shift: an offset counts `2^shift` for a position.
-pub(crate) const SHIFT_MASK: u32 = 31;
+pub(crate) const SHIFT_MASK: i32 = 31;
 
 /// The bits of the top at an index, from those of the one at index 0; 0 if that is too small.
 pub(crate) const fn top_at(top: u32, octaves: usize) -> u32 {
@@ -63,7 +63,7 @@ impl Octave {
     /// The offset of a position. It fits the word, though position and center may wrap (`FILLED` in [`span`]).
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
-        position.wrapping_sub(self.center as i32) << (self.center & SHIFT_MASK)
+        position.wrapping_sub(self.center) << (self.center & SHIFT_MASK)
     }
 
     /// The time at an offset, in units.

@@ -7,13 +7,14 @@ use crate::exposure::Exposure;
 use crate::fixed::WORD;
 use crate::fraction::Side;
 use crate::octave::span::Span;
+use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
 
 /// [`root`] ends with a step below this share of `x`, about as close as an `f32` comes, or after [`MOST_ROUNDS`].
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
 /// 40 bisections resolve a `p` above 2⁻²⁰. A worse one only widens the stretch, and may cost the polynomial.
 const MOST_ROUNDS: usize = 40;
-/// The first step outwards of [`Path::parameter`], as a share of `p`: small, as each further one is twice as long.
+/// The first step outwards of [`Path::place`], as a share of `p`: small, as each further one is twice as long.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// A ramp, seen from a side of the curve, for which octaves are built: by powers of `p`, from 0 at the end that faces
@@ -29,8 +30,9 @@ pub(crate) struct Path<'a> {
     pub(crate) fraction: [f64; 7],
 }
 
-/// A part of a path by powers of an `s` from -1 to 1.
+/// The part of a path that has all fractions of a span, by powers of an `s` from -1 to 1.
 pub(crate) struct Stretch {
+    pub(crate) span: Span,
     pub(crate) openness: [f64; 4],
     /// The time since the side's end.
     pub(crate) time: [f64; 4],
@@ -41,17 +43,17 @@ pub(crate) struct Stretch {
 }
 
 impl<'a> Path<'a> {
-    pub(crate) const fn new(exposure: &'a Exposure, shapes: &[Shape; 2], side: Side, ramp: Side) -> Self {
-        let shape = shapes[ramp as usize].seen_from(side);
+    pub(crate) const fn new(exposure: &'a Exposure, ramps: &[CubicBezier; 2], side: Side, ramp: Side) -> Self {
+        let shape = Shape::new(&ramps[ramp as usize], side);
         let until_far = exposure.join_time(side.other()) as f64 - exposure.end_time(side) as f64;
         // At p = 0: the side's end, or the far ramp's join.
         let (t0, u0) = if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), exposure.join_fractions(side)[1]) };
-        let [t1, t2, t3] = shape.time_powers();
-        let [u1, u2, u3, u4, u5, u6] = shape.exposure_powers();
+        let [t1, t2, t3] = shape.time;
+        let [u1, u2, u3, u4, u5, u6] = shape.exposure();
         let mut fraction = [0.0, u1, u2, u3, u4, u5, u6];
         scale(&mut fraction, exposure.per_area, 1.0);
         fraction[0] = u0;
-        Self { exposure, side, ramp, openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
+        Self { exposure, side, ramp, openness: shape.openness, time: [t0, t1, t2, t3], fraction }
     }
 
     /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
@@ -73,7 +75,7 @@ impl<'a> Path<'a> {
     /// A `p` with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is near, not the
     /// nearest: farther out, a certificate is only stricter.
     #[inline(never)]
-    const fn parameter(&self, u: f64, up: bool) -> f64 {
+    const fn place(&self, u: f64, up: bool) -> f64 {
         let single = singles(&self.fraction, u, 1.0);
         let (p, slope) = root(&single, [0.0, 1.0], 0.5);
         let (mut p, slope) = (p as f64, slope as f64);
@@ -94,12 +96,11 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The stretch that has all fractions of a span.
     #[inline(never)]
-    pub(crate) const fn stretch(&self, span: &Span) -> Stretch {
-        let Span { middle, half, power, .. } = *span;
-        let first = self.parameter((middle - half) as f64, false);
-        let last = self.parameter((middle + half) as f64, true);
+    pub(crate) const fn stretch(&self, span: Span) -> Stretch {
+        let Span { middle, half, power, .. } = span;
+        let first = self.place((middle - half) as f64, false);
+        let last = self.place((middle + half) as f64, true);
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
         let Self { mut openness, mut time, fraction: mut position, .. } = *self;
         recentred(&mut openness, middle, half);
@@ -108,6 +109,7 @@ impl<'a> Path<'a> {
         position[0] -= power as f64;
         scale(&mut position, (WORD / power) as f64, 1.0);
         Stretch {
+            span,
             openness,
             time,
             position,

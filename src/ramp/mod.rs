@@ -7,8 +7,9 @@
 pub(crate) mod bezier;
 pub(crate) mod shape;
 
-use crate::fixed::{Units, fixed_towards_0, magnitude};
+use crate::fixed::{Units, fixed_towards_0, in_2_60};
 use crate::fraction::Side;
+use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
 use crate::search::Series;
 
@@ -34,9 +35,10 @@ pub(crate) struct Ramp {
 }
 
 impl Ramp {
-    /// The ramp with these control times, on a curve with one over its area.
-    pub(crate) const fn new(times: [f32; 4], shape: &Shape, per_area: f64, share: i64, units: Units) -> Self {
-        let powers = [shape.seen_from(Side::Start).exposure_powers(), shape.seen_from(Side::End).exposure_powers()];
+    /// A ramp of a curve with one over its area.
+    pub(crate) const fn new(bezier: &CubicBezier, per_area: f64, share: i64, units: Units) -> Self {
+        let times = bezier.times();
+        let powers = [Shape::new(bezier, Side::Start).exposure(), Shape::new(bezier, Side::End).exposure()];
         let (mut mass, mut k) = ([[0; 6]; 2], 0);
         while k < 6 {
             mass[0][k] = fixed_towards_0(powers[0][k] * per_area, MASS_SHIFT as i32 - 62);
@@ -48,7 +50,7 @@ impl Ramp {
             differences[k] = units.refined(units.of(times[k + 1]) - units.of(times[k])) >> WAY_SHIFT;
             k += 1;
         }
-        Self { ends: [times[0], times[3]], openness: shape.openness, differences, mass, share }
+        Self { ends: [times[0], times[3]], openness: bezier.opennesses(), differences, mass, share }
     }
 
     /// The time of the end that faces a side.
@@ -109,7 +111,7 @@ impl Ramp {
     pub(crate) const fn openness_at(&self, side: Side, place: u64) -> i64 {
         let [f0, f1, f2, f3] = self.openness;
         let [f0, f1, f2, f3] = if side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
-        let [f0, f1, f2, f3] = [magnitude(f0, -60), magnitude(f1, -60), magnitude(f2, -60), magnitude(f3, -60)];
+        let [f0, f1, f2, f3] = [in_2_60(f0), in_2_60(f1), in_2_60(f2), in_2_60(f3)];
         let value = f0 + Series { c: &powers([f1 - f0, f2 - f1, f3 - f2]), shift: 0 }.at(place);
         if value > 0 { value } else { 0 }
     }

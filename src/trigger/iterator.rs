@@ -4,7 +4,7 @@
 use core::ops::Range;
 
 use crate::trigger::pulse::{Pulse, Pulses};
-use crate::trigger::ticks::Ticks;
+use crate::trigger::ticks::Frame;
 
 /// The ticks of a frame's triggers, from [`TimedCurve::trigger_ticks`](crate::TimedCurve::trigger_ticks). The
 /// iterator runs from either end, and computes only the ticks that it returns.
@@ -33,7 +33,7 @@ use crate::trigger::ticks::Ticks;
 /// ```
 #[derive(Clone)]
 pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
-    pub(crate) frame: Ticks<'a, OCTAVES>,
+    pub(crate) frame: Frame<'a, OCTAVES>,
     pub(crate) left: Range<u32>,
 }
 

@@ -1,7 +1,7 @@
 //! Pulses of a steady lamp that send equal light through the shutter: on and off, as timer ticks.
 
 use crate::error::ScheduleError;
-use crate::trigger::ticks::Ticks;
+use crate::trigger::ticks::Frame;
 
 /// The ticks at which a pulse starts and ends. They count from [`open_start`](crate::ShutterCurve::open_start).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -16,19 +16,19 @@ pub struct Pulse {
 /// What places the pulses of one frame.
 #[derive(Clone)]
 pub(crate) struct Pulses<'a, const OCTAVES: usize> {
-    ticks: Ticks<'a, OCTAVES>,
+    frame: Frame<'a, OCTAVES>,
     duty: f32,
 }
 
 impl<'a, const OCTAVES: usize> Pulses<'a, OCTAVES> {
-    pub(crate) const fn new(ticks: Ticks<'a, OCTAVES>, duty: f32) -> Result<Self, ScheduleError> {
-        if duty > 0.0 && duty <= 1.0 { Ok(Self { ticks, duty }) } else { Err(ScheduleError::DutyOutOfRange) }
+    pub(crate) const fn new(frame: Frame<'a, OCTAVES>, duty: f32) -> Result<Self, ScheduleError> {
+        if duty > 0.0 && duty <= 1.0 { Ok(Self { frame, duty }) } else { Err(ScheduleError::DutyOutOfRange) }
     }
 
     /// Pulse `i`. Its ends are in order, and so are neighbouring pulses, since rounding keeps the order of
     /// `2i + 1 - duty` and `2i + 1 + duty`, and so does all that follows.
     pub(crate) const fn at(&self, i: u32) -> Pulse {
-        Pulse { on: self.ticks.around(i, -self.duty), off: self.ticks.around(i, self.duty) }
+        Pulse { on: self.frame.tick_at(i, -self.duty), off: self.frame.tick_at(i, self.duty) }
     }
 
     /// Are all pulses and gaps long enough?
@@ -41,7 +41,7 @@ impl<'a, const OCTAVES: usize> Pulses<'a, OCTAVES> {
     #[inline(always)]
     pub(crate) const fn fill(&self, pulses: &mut [Pulse], min_gap: u32, min_pulse: u32) -> Result<(), ScheduleError> {
         let (mut i, mut last) = (0, 0);
-        while i < self.ticks.n {
+        while i < self.frame.n {
             let pulse = self.at(i);
             let length = pulse.off.saturating_sub(pulse.on);
             if length < min_pulse {

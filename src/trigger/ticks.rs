@@ -14,14 +14,14 @@ pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 
 /// The ticks of one frame: of the triggers, or the pulses, of one exposure.
 #[derive(Clone)]
-pub(crate) struct Ticks<'a, const OCTAVES: usize> {
+pub(crate) struct Frame<'a, const OCTAVES: usize> {
     inverse: &'a Inverse<OCTAVES>,
     /// The number of triggers or pulses.
     pub(crate) n: u32,
     scale: TickScale,
 }
 
-impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
+impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
     pub(crate) const fn new(inverse: &'a Inverse<OCTAVES>, scale: TickScale, n: u32) -> Result<Self, ScheduleError> {
         if n > MOST_TRIGGERS {
             return Err(ScheduleError::TooMany { max: MOST_TRIGGERS });
@@ -32,12 +32,12 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     /// The tick of trigger `i`.
     #[inline(always)]
     pub(crate) const fn at(&self, i: u32) -> u32 {
-        self.around(i, 0.0)
+        self.tick_at(i, 0.0)
     }
 
     /// The tick of the fraction `(2i + 1 + more) / 2n`, where `more` is ±duty for the ends of a pulse.
     #[inline(always)]
-    pub(crate) const fn around(&self, i: u32, more: f32) -> u32 {
+    pub(crate) const fn tick_at(&self, i: u32, more: f32) -> u32 {
         self.scale.tick(self.inverse.time_units(self.fraction(i, more)))
     }
 
@@ -133,7 +133,7 @@ impl TickScale {
         }
         let curve = &inverse.exposure;
         let [start_units, end_units] = [curve.end_units(Side::Start), curve.end_units(Side::End)];
-        let (length, exponent) = ((end_units - start_units) as u64, curve.units().exponent);
+        let (length, exponent) = ((end_units - start_units) as u64, curve.units.exponent());
         if exponent_of_ticks(length, rate, exponent) > TICK_BITS {
             return Err(too_high(length, rate, exponent));
         }

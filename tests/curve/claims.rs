@@ -44,7 +44,7 @@ const HELD: &[(&str, &[&str])] = &[
         "Both are 1 tick", "and pulses may touch", "With a duty of 1", "may start and end at the same tick",
     ]),
     ("tests/curve/ticks.rs::the_greatest_tick_rate_is_named", &["at most 2³¹", "16-bit"]),
-    ("tests/curve/ticks.rs::the_most_that_keep_the_gap", &["below both `wanted` and 2²²", "up to 19, were seen"]),
+    ("tests/curve/ticks.rs::the_most_that_keep_the_gap", &["below both `wanted` and 2²²", "finds the number, at most 23"]),
     ("tests/curve/ticks.rs::the_max_triggers_of_anything", &["It is 0 only if `wanted` is 0"]),
     ("tests/curve/ticks.rs::a_filled_schedule_is_each_trigger_alone",
         &["Openness is at most 1, so", "Each end errs", "3 ticks and"]),

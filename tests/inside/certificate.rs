@@ -42,19 +42,19 @@ impl Truth {
     /// Judges all octaves of a curve along `samples` places each, by the way that an answer takes from a position on.
     fn judge<const OCTAVES: usize>(&mut self, curve: &Curve, samples: u32) {
         let ramps = [curve.opening, curve.closing].map(CubicBezier::new);
-        let Ok((exposure, shapes)) = Exposure::new(&ramps[0], &ramps[1]) else {
+        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else {
             return;
         };
         let exact = Exact::new(curve);
         for side in Side::BOTH {
             let mut octaves = [Octave::NONE; OCTAVES];
-            let tops = build(&exposure, &shapes, side, &mut octaves);
+            let tops = build(&exposure, &ramps, side, &mut octaves);
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
-                let (range, path) = (range(&exposure, side, ramp), Path::new(&exposure, &shapes, side, ramp));
+                let (range, path) = (range(&exposure, side, ramp), Path::new(&exposure, &ramps, side, ramp));
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, top_at(steps, index)) {
                         self.octaves += 1;
-                        path.judge(octave, &span, &exact, samples, &mut self.greatest);
+                        path.judge(octave, span, &exact, samples, &mut self.greatest);
                     }
                 }
             }
@@ -64,16 +64,17 @@ impl Truth {
 
 impl Path<'_> {
     /// What was built of a span: the polynomial, and the stretch that it is held against.
-    fn built(&self, span: &Span) -> (Candidate, Stretch) {
+    fn built(&self, span: Span) -> (Candidate, Stretch) {
         let stretch = self.stretch(span);
-        (candidate(self, span, &stretch).expect("it was built"), stretch)
+        (candidate(self, &stretch).expect("it was built"), stretch)
     }
 
-    fn judge(&self, octave: &Octave, span: &Span, exact: &Exact, samples: u32, greatest: &mut [f64; 2]) {
+    fn judge(&self, octave: &Octave, span: Span, exact: &Exact, samples: u32, greatest: &mut [f64; 2]) {
         let (candidate, stretch) = self.built(span);
+        let span = &stretch.span;
         assert_eq!(candidate.octave, *octave);
-        let bounds = certificate(self, &candidate, span, &stretch);
-        let start = fixed_down(self.exposure.end_time(self.side), self.exposure.units().exponent);
+        let bounds = certificate(self, &candidate, &stretch);
+        let start = fixed_down(self.exposure.end_time(self.side), self.exposure.units.exponent());
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(JOIN_OFF + FRACTION_OFF * span.to));
         // The span itself rounds its end.
@@ -90,7 +91,7 @@ impl Path<'_> {
                 let position = (a / f64::from(span.power) - 1.0) * f64::from(WORD);
                 let position = position.floor() as i64 as i32;
                 let time = octave.time(octave.offset(position)) - start;
-                let time = time as f64 * power_of_two_f64(self.exposure.units().exponent);
+                let time = time as f64 * power_of_two_f64(self.exposure.units.exponent());
                 let served = Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
                 let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
                 // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
@@ -162,18 +163,18 @@ fn an_offset_beyond_its_word_is_refused() {
     let opening = std::array::from_fn(|k| (thirds[k], thirds[k]));
     let closing = std::array::from_fn(|k| (2.0 + thirds[k], 1.0 - thirds[k]));
     let ramps = [opening, closing].map(CubicBezier::new);
-    let (exposure, shapes) = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
+    let exposure = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
     let mut judged = 0;
     for side in Side::BOTH {
-        let path = Path::new(&exposure, &shapes, side, side);
+        let path = Path::new(&exposure, &ramps, side, side);
         let mut octaves = [Octave::NONE; 8];
-        let tops = build(&exposure, &shapes, side, &mut octaves);
+        let tops = build(&exposure, &ramps, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
             let Some(span) = Span::new(range(&exposure, side, side), top_at(tops[side as usize], index)) else {
                 continue;
             };
-            let (candidate, mut stretch) = path.built(&span);
-            let (center, per_position) = span.offsets();
+            let (candidate, mut stretch) = path.built(span);
+            let (center, per_position) = stretch.span.offsets();
             let position = stretch.position;
             for to in [0.4998, 0.49991, 0.51, 0.75, 1.0, 1.5] {
                 for end in [-1.0, 1.0] {
@@ -181,7 +182,7 @@ fn an_offset_beyond_its_word_is_refused() {
                     let offset = (value(&position, end) - center) * per_position;
                     stretch.position = position;
                     stretch.position[0] += (end * to - offset) / per_position;
-                    let bounds = certificate(&path, &candidate, &span, &stretch);
+                    let bounds = certificate(&path, &candidate, &stretch);
                     let is_refused = bounds == ErrorOverLimit::REFUSED;
                     assert_eq!(is_refused, to > 0.4999, "{to} at {end}: {bounds:?}");
                     judged += 1;

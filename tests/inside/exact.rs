@@ -182,9 +182,9 @@ fn judge_value(series: &Series<6>, p: u64) {
 fn the_octave_of_a_fraction() {
     let (mut rng, mut seen) = (Rng::new(95, 0), 0);
     for (inverse, [opening, closing]) in ramps().filter_map(|r| Some((Inverse::<8>::new(&r[0], &r[1]).ok()?, r))) {
-        let (exposure, shapes) = Exposure::new(&opening, &closing).expect("as before");
+        let exposure = Exposure::new(&opening, &closing).expect("as before");
         for (side, ramp) in Side::BOTH.into_iter().flat_map(|side| Side::BOTH.map(|ramp| (side, ramp))) {
-            let first_top = build(&exposure, &shapes, side, &mut [Octave::NONE; 8])[ramp as usize];
+            let first_top = build(&exposure, &[opening, closing], side, &mut [Octave::NONE; 8])[ramp as usize];
             let [from, to] = range(&exposure, side, ramp);
             for _ in 0..1000 {
                 let a = fraction(&mut rng);
@@ -206,7 +206,7 @@ fn the_octave_of_a_fraction() {
                 assert_eq!(position as u32, exact as u32, "{a}");
                 let (center, shift) = (octave.center, octave.center & 31);
                 // Position and center may have wrapped: the nearest distance that both words allow.
-                let distance = (exact as u32).wrapping_sub(center) as i32 as i128;
+                let distance = (exact as i32).wrapping_sub(center) as i128;
                 let x = octave.offset(position);
                 assert_eq!(i128::from(x), distance << shift, "{a}");
                 let wide = octave.c.iter().fold(0i128, |sum, c| ((sum + i128::from(*c)) * i128::from(x)) >> 32);
@@ -225,7 +225,7 @@ fn the_octave_of_a_fraction() {
 fn a_time_in_units_is_rounded_once() {
     let (mut rng, mut lines, mut near_0) = (Rng::new(96, 0), 0, 0);
     for inverse in inverses() {
-        let (exposure, unit) = (&inverse.exposure, inverse.exposure.units().exponent);
+        let (exposure, unit) = (&inverse.exposure, inverse.exposure.units.exponent());
         let start = exposure.end_time(Side::Start);
         let [near, far] = exposure.join_fractions(Side::Start);
         // Across time 0 also the fractions about it.
@@ -270,7 +270,7 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
         let [opening, closing] = [curve.opening, curve.closing].map(CubicBezier::new);
         let Ok(inverse) = Inverse::<0>::new(&opening, &closing) else { continue };
         let exposure = &inverse.exposure;
-        let (exact, unit) = (Exact::new(&curve), power_of_two_f64(exposure.units().exponent));
+        let (exact, unit) = (Exact::new(&curve), power_of_two_f64(exposure.units.exponent()));
         let [start, end] = Side::BOTH.map(|side| f64::from(exposure.end_time(side)));
         for k in 0..1500 {
             let side = Side::end_if(k % 2 == 0);
@@ -311,7 +311,7 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
 #[test]
 fn a_search_rounds_its_fraction_to_the_grid() {
     let [opening, closing] = [0.0, 1.0].map(|t| CubicBezier::new([(t, 1.0); 4]));
-    let (exposure, _) = Exposure::new(&opening, &closing).expect("a box");
+    let exposure = Exposure::new(&opening, &closing).expect("a box");
     let mut rng = Rng::new(97, 0);
     for _ in 0..10_000 {
         let a = fraction(&mut rng) * power_of_two(-(rng.below(30) as i32));
@@ -331,7 +331,7 @@ fn a_search_rounds_its_fraction_to_the_grid() {
 fn a_tick_is_the_nearest() {
     let mut rng = Rng::new(98, 0);
     for inverse in inverses() {
-        let (exposure, e) = (&inverse.exposure, inverse.exposure.units().exponent);
+        let (exposure, e) = (&inverse.exposure, inverse.exposure.units.exponent());
         let [start, end] = Side::BOTH.map(|side| exposure.in_units(exposure.end_time(side)));
         let length = end - start;
         // In half ticks, rounded down: 128 bits hold all that is not 0.
