@@ -39,18 +39,20 @@
 //!
 //! | you want | call |
 //! |---|---|
-//! | a shutter from [`CubicBezier`]s, straight ramps, or RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
+//! | a shutter from two [`CubicBezier`]s | [`ShutterCurve::new`] |
+//! | - from straight ramps, or RenderMan's form | [`ShutterCurve::linear`], [`ShutterCurve::shutteropening`] |
+//! | - in less memory, or with fewer searches | [`ShutterCurve::with_octaves`] |
+//! | a probability density from one Bezier | [`ShutterCurve::density`] |
 //! | a curve, ticks or pulses in a constant | [`expect!`](expect) |
-//! | a curve in less memory, or fewer searches | [`with_octaves`] |
-//! | a probability density from one Bezier | [`density`] |
-//! | the time of a fraction | [`inverse_cdf`] |
-//! | the fraction, the openness or the probability density at a time | [`cdf`], [`openness`], [`pdf`] |
-//! | triggers or pulses on a timer | [`at`], which makes a [`TimedCurve`] |
-//! | - the ticks of a frame, as an array or in a slice | [`ticks`], [`ticks_into`] |
-//! | - the ticks of a frame one by one, as in an interrupt handler | [`trigger_ticks`] |
-//! | - how many triggers keep a minimum gap | [`max_triggers`] |
-//! | - pulses that send equal light through the shutter | [`pulses`], [`pulses_into`], [`pulse_ticks`] |
-//! | how many triggers surely need no search | [`direct_triggers`] |
+//! | the time of a fraction | [`ShutterCurve::inverse_cdf`] |
+//! | the fraction or the openness at a time | [`ShutterCurve::cdf`], [`ShutterCurve::openness`] |
+//! | the probability density at a time | [`ShutterCurve::pdf`] |
+//! | triggers or pulses on a timer | [`ShutterCurve::at`], which makes a [`TimedCurve`] |
+//! | - the ticks of a frame, as an array or in a slice | [`TimedCurve::ticks`], [`TimedCurve::ticks_into`] |
+//! | - the ticks of a frame one by one, as in an interrupt handler | [`TimedCurve::trigger_ticks`] |
+//! | - how many triggers keep a minimum gap | [`TimedCurve::max_triggers`] |
+//! | - pulses that send equal light through the shutter | [`TimedCurve::pulses`], [`TimedCurve::pulse_ticks`] |
+//! | how many triggers surely need no search | [`ShutterCurve::direct_triggers`] |
 //!
 //! # From a measured shutter
 //!
@@ -71,19 +73,19 @@
 //!
 //! # Accuracy
 //!
-//! On every curve, [`inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded to `f32`.
-//! (For `u` below 2⁻²³ the fraction is within 2⁻⁴⁶.) On typical curves, the result is within 0.69 ulp of the exact time
-//! of `u`. Times and ticks never decrease as `u` grows. The page [`accuracy`] lists all promises and the evidence for
-//! them.
+//! On every curve, [`ShutterCurve::inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded
+//! to `f32`. (For `u` below 2⁻²³ the fraction is within 2⁻⁴⁶.) On typical curves, the result is within 0.69 ulp of the
+//! exact time of `u`. Times and ticks never decrease as `u` grows. The page [`accuracy`] lists all promises and the
+//! evidence for them.
 //!
 //! Every machine with IEEE arithmetic gives the same bits.
 //!
 //! # Cost
 //!
 //! A `static` curve takes 1136 bytes of flash and no start-up code. The code for ticks takes about 4 kB, and 0.3 kB of
-//! stack. On a Cortex-M4F, [`inverse_cdf`] takes 60 to 110 cycles on average. A search takes 500 to 2500, or more on a
-//! [`density`] that is dim at both ends. Building a curve at run time takes 2.9 million. These are cycles of a model;
-//! no chip has been measured. A frame of up to [`direct_triggers`] triggers needs no search.
+//! stack. On a Cortex-M4F, the time of a fraction takes 60 to 110 cycles on average. A search takes 500 to 2500, or more
+//! on a density that is dim at both ends. Building a curve at run time takes 2.9 million. These are cycles of a model;
+//! no chip has been measured. A frame of up to [`ShutterCurve::direct_triggers`] triggers needs no search.
 //!
 //! # Features and minimum Rust
 //!
@@ -92,25 +94,6 @@
 //!
 //! The crate needs Rust 1.88. A minor version may raise this. It may also change the last bits of results, within the
 //! promises.
-//!
-//! [`new`]: ShutterCurve::new
-//! [`linear`]: ShutterCurve::linear
-//! [`shutteropening`]: ShutterCurve::shutteropening
-//! [`with_octaves`]: ShutterCurve::with_octaves
-//! [`density`]: ShutterCurve::density
-//! [`inverse_cdf`]: ShutterCurve::inverse_cdf
-//! [`cdf`]: ShutterCurve::cdf
-//! [`openness`]: ShutterCurve::openness
-//! [`pdf`]: ShutterCurve::pdf
-//! [`ticks`]: TimedCurve::ticks
-//! [`ticks_into`]: TimedCurve::ticks_into
-//! [`trigger_ticks`]: TimedCurve::trigger_ticks
-//! [`max_triggers`]: TimedCurve::max_triggers
-//! [`at`]: ShutterCurve::at
-//! [`direct_triggers`]: ShutterCurve::direct_triggers
-//! [`pulse_ticks`]: TimedCurve::pulse_ticks
-//! [`pulses`]: TimedCurve::pulses
-//! [`pulses_into`]: TimedCurve::pulses_into
 
 #![cfg_attr(not(test), no_std)]
 // docs.rs says of each item which feature it needs.

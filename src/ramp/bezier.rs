@@ -13,15 +13,6 @@ pub struct CubicBezier {
 impl CubicBezier {
     /// Makes a curve from four control points, each a (time, openness). [`ShutterCurve::new`](crate::ShutterCurve::new)
     /// checks them.
-    ///
-    /// ```
-    /// use shutter_curve::{CubicBezier, ShutterCurve};
-    /// // In ms: soft ramps, and 3 ms fully open.
-    /// let opening = CubicBezier::new([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]);
-    /// let closing = CubicBezier::new([(5.0, 1.0), (6.0, 1.0), (6.0, 0.0), (7.0, 0.0)]);
-    /// assert_eq!(ShutterCurve::new(opening, closing)?.exposure(), 5.0);
-    /// # Ok::<(), shutter_curve::CurveError>(())
-    /// ```
     #[must_use]
     pub const fn new(points: [(f32, f32); 4]) -> Self {
         Self { points }
@@ -49,12 +40,6 @@ impl CubicBezier {
 
     /// Multiplies every openness by `factor`. The product is exact if `factor` is a power of two and no result is
     /// subnormal or infinite.
-    ///
-    /// ```
-    /// use shutter_curve::CubicBezier;
-    /// let line = CubicBezier::line((0.0, 0.0), (3.0, 96.0));
-    /// assert_eq!(line.scaled(1.0 / 128.0), CubicBezier::line((0.0, 0.0), (3.0, 0.75)));
-    /// ```
     #[must_use]
     pub const fn scaled(&self, factor: f32) -> Self {
         let [(t0, f0), (t1, f1), (t2, f2), (t3, f3)] = self.points;
@@ -64,15 +49,6 @@ impl CubicBezier {
     /// Makes the opening and the closing ramp from the arguments of
     /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening). Pass them to
     /// [`ShutterCurve::with_octaves`](crate::ShutterCurve::with_octaves).
-    ///
-    /// ```
-    /// use shutter_curve::CubicBezier;
-    /// // Times are in ms. Those of the inner control points are fractions of the whole 8 ms.
-    /// let inner = [0.125, 0.0, 0.125, 1.0, 0.875, 1.0, 0.875, 0.0];
-    /// let (opening, closing) = CubicBezier::shutteropening([0.0, 2.0, 6.0, 8.0], inner);
-    /// assert_eq!(opening.points(), [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]);
-    /// assert_eq!(closing.points(), [(6.0, 1.0), (7.0, 1.0), (7.0, 0.0), (8.0, 0.0)]);
-    /// ```
     #[must_use]
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> (Self, Self) {
         let [open_start, open_end, close_start, close_end] = times;
