@@ -182,7 +182,7 @@ pub(crate) fn rounded_near_0(x: i64, word: f32) -> f32 {
     let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
     let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
     // Two factors: their product may not be normal. The answer is, or 0.
-    filled as f32 * power_of_two(-((moved + up) as i32)) * word
+    filled as f32 * f32::from_bits((127 - moved - up) << 23) * word
 }
 
 /// `2^n`, a normal number.

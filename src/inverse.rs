@@ -82,11 +82,10 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
             Section::Line(time) => return rounded(time, self.exposure.units.word),
             Section::Ramp(ramp) => ramp,
         };
-        let word = self.exposure.units.word;
         let (time, scale) = match self.by_octave(Fraction::new(u), ramp) {
             Some(time) => match upper_word(time) {
-                Some(high) => (high as f32, word),
-                None => (rounded_near_0(time, word), 1.0),
+                Some(high) => (high as f32, self.exposure.units.word),
+                None => (rounded_near_0(time, self.exposure.units.word), 1.0),
             },
             None => (f32::from_bits(self.searched_bits(u)), 1.0),
         };
