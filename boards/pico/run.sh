@@ -14,4 +14,4 @@ cargo build --quiet --locked --release
 [ emulator/node_modules/.package-lock.json -nt emulator/package-lock.json ] ||
     (cd emulator && npm ci --no-audit --no-fund --loglevel error >&2)
 folder=$(cargo metadata --no-deps --format-version 1 | sed -n 's/.*"target_directory":"\([^"]*\)".*/\1/p')
-node emulator/check.mjs "$folder/thumbv6m-none-eabi/release/leaf-pico" src
+node emulator/check.mjs "$folder/thumbv6m-none-eabi/release/leaf-pico" src "$@"

@@ -1,10 +1,12 @@
-"""python3 model.py FIRMWARE: runs the firmware on an emulated processor (unicorn), with a model of its registers.
+"""python3 model.py FIRMWARE [falling|rising EDGES]: runs it on an emulated processor (unicorn), with a model of its
+registers; by another sync than that of leaf.rs, if asked for, and writes the lamp's edges of each frame to EDGES.
 
 No emulator that we know of has this chip's capture, compare and DMA. The model is ours, by the chip's reference manual
 (RM0383), and refuses what it does not know. It judges each edge of the lamp's line, to the tick, by leaf.rs. Exits with
 1 if one is wrong.
 """
 
+import json
 import re
 import sys
 from pathlib import Path
@@ -180,10 +182,11 @@ array = lambda name: re.search(rf"{name}: \[.*?\] = \[([^\]]*)\];", leaf)
 numbers = lambda found: [int(number) for number in re.findall(r"\d+", found[1])]
 TIMER_HZ, delay, hold_off = (number(name, leaf) for name in ("TIMER_HZ", "DELAY_TICKS", "HOLD_OFF_TICKS"))
 pulse = number("PULSE", (source / "main.rs").read_text())
-FALLS = "SYNC_FALLS: bool = true;" in leaf
+elf, *asked = sys.argv[1:]
+FALLS = asked[0] == "falling" if asked else "SYNC_FALLS: bool = true;" in leaf
 pulses = array("PULSES")
 changes = numbers(pulses) if pulses else [tick + end for tick in numbers(array("TICKS")) for end in (0, pulse)]
-chip = Chip(sys.argv[1])
+chip = Chip(elf)
 second = TIMER_HZ
 # Frames: one; one whose edge comes before the counter wraps and its flashes after; one after an edge that bounced, and
 # during and after which others come before lamp and sync are ready; and one that comes then.
@@ -197,6 +200,10 @@ if chip.edges != expected:
     wrong = next((i for i, (a, b) in enumerate(zip(chip.edges, expected)) if a != b), min(n, m))
     found, right = chip.edges[wrong:wrong + 1], expected[wrong:wrong + 1]
     sys.exit(f"{n} edges of {m}; number {wrong} at {found}, not {right}")
+if asked:
+    n = len(changes)
+    of_frames = [[edge - frame for edge in chip.edges[i * n : (i + 1) * n]] for i, frame in enumerate(frames)]
+    Path(asked[1]).write_text(json.dumps(of_frames))
 way = "falling" if FALLS else "rising"
 fired = f"{len(frames)} frames of {len(changes) // 2} flashes"
 print(f"boards/stm32f4: {fired}, each edge on its tick after a {way} sync, one across the counter's wrap")

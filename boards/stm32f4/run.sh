@@ -16,4 +16,4 @@ if ! "$python" -c 'import unicorn' 2>/dev/null; then
     python3 -m venv "$folder/unicorn" && "$python" -m pip install --quiet --disable-pip-version-check unicorn==2.1.4 ||
         { echo "stm32f4: no unicorn: python3 with venv (package python3-venv) and pip are needed" >&2 && exit 1; }
 fi
-"$python" model.py "$folder/thumbv7em-none-eabihf/release/leaf-stm32f4"
+"$python" model.py "$folder/thumbv7em-none-eabihf/release/leaf-stm32f4" "$@"

@@ -1,7 +1,8 @@
-// node check.mjs FIRMWARE SOURCES: runs the firmware in the emulator, and judges each edge of the lamp's line in some
-// frames by leaf.rs. Exits with 1 if one is not on its cycle after the sync's edge.
+// node check.mjs FIRMWARE SOURCES [falling|rising EDGES]: runs the firmware in the emulator, and judges each edge of the
+// lamp's line in some frames by leaf.rs. Exits with 1 if one is not on its cycle after the sync's edge. By another sync
+// than that of leaf.rs, if asked for, and writes the lamp's edges of each frame to EDGES.
 
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Board } from "./board.mjs";
 
@@ -9,7 +10,7 @@ const SYNC = 2;
 const LAMP = 3;
 const FRAMES = 3;
 
-const [elf, sources] = process.argv.slice(2);
+const [elf, sources, sync, file] = process.argv.slice(2);
 const [leaf, main] = ["leaf.rs", "main.rs"].map((name) => readFileSync(join(sources, name), "utf8"));
 const number = (name, text) => Number(text.match(`${name}: u32 = (\\w+);`)[1].replaceAll("_", ""));
 const array = (name) => leaf.match(`${name}: \\[.*?\\] = \\[([^\\]]*)\\];`)?.[1].match(/\d+/g).map(Number);
@@ -17,10 +18,10 @@ const delay = number("DELAY_TICKS", leaf);
 const holdOff = number("HOLD_OFF_TICKS", leaf);
 const pulse = number("PULSE", main);
 const changes = (array("PULSES") ?? array("TICKS").flatMap((tick) => [tick, tick + pulse])).map((tick) => delay + tick);
-const falls = leaf.includes("SYNC_FALLS: bool = true;");
+const falls = sync ? sync === "falling" : leaf.includes("SYNC_FALLS: bool = true;");
 
 const board = new Board(elf);
-const edges = [];
+const [edges, frames] = [[], []];
 board.watch(LAMP, (_, cycle) => edges.push(cycle));
 for (let frame = 0; frame < FRAMES; frame++) {
   board.arm();
@@ -34,7 +35,7 @@ for (let frame = 0; frame < FRAMES; frame++) {
   const edge = board.cycle;
   board.drive(SYNC, !falls);
   // The second frame's sync comes again while the frame runs, and before lamp and sync are ready for another.
-  for (const at of [changes[0], Math.max(holdOff - 500, changes.at(-1))]) {
+  for (const at of [changes[0], holdOff - 500].filter((at, i) => i === 0 || at > changes.at(-1))) {
     board.run(edge + at - board.cycle);
     if (frame === 1) for (const level of [falls, !falls]) board.drive(SYNC, level), board.run(100);
   }
@@ -43,6 +44,8 @@ for (let frame = 0; frame < FRAMES; frame++) {
   if (found.join() !== changes.join()) {
     throw new Error(`frame ${frame}: the line changes at ${found}, not at ${changes}`);
   }
+  frames.push(found);
 }
+if (file) writeFileSync(file, JSON.stringify(frames));
 const [n, way] = [changes.length / 2, falls ? "falling" : "rising"];
 console.log(`boards/pico: ${FRAMES} frames of ${n} flashes, each edge on its cycle after a ${way} sync`);
