@@ -1,21 +1,18 @@
-//! Each form that a plan is emitted in, of each scene that ships: it compiles or parses as it stands, and holds the
-//! crate's ticks and the numbers of the plan to the bit.
+//! Each form that a plan is emitted in: it compiles or parses as it stands, without a warning, and holds the crate's
+//! ticks and the numbers of the plan to the bit.
 
 use std::env;
-use std::fmt::Display;
 use std::path::Path;
 use std::process::Command;
-use std::sync::OnceLock;
 
 use serde::Deserialize;
 use serde_json::Value;
+use shutter_curve::ShutterCurve;
 use shutter_plan::emit::{Form, emit, identifier, module, several};
 use shutter_plan::lamp::Lamp;
 use shutter_plan::plan::{Plan, Trigger};
 
-use shutter_curve::ShutterCurve;
-
-use crate::refusals::{BOX, MEASURED};
+use crate::refusals::{BOX, MEASURED, TIMES};
 use crate::support::{Folder, SCENES, has, keys, number, planned, scenes};
 
 fn text(form: Form, name: &str, plan: &Plan) -> String {
@@ -26,11 +23,7 @@ fn curve_of(plan: &Plan) -> &ShutterCurve {
     &plan.curve.as_ref().unwrap().shutter
 }
 
-fn has_pulses(plan: &Plan) -> bool {
-    plan.triggers[0].pulse.is_some()
-}
-
-/// What a command prints that has to succeed.
+/// What a command prints that has to succeed without a word.
 fn output(command: &mut Command) -> String {
     let output = command.output().expect("the command is there");
     let err = String::from_utf8_lossy(&output.stderr);
@@ -38,187 +31,263 @@ fn output(command: &mut Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The triggers or pulses, as the test programs print them.
-fn lines(planned: &Plan) -> String {
-    planned.triggers.iter().map(line).collect()
+/// Runs a compiler of Rust in a folder.
+fn rustc(compiler: impl AsRef<Path>, folder: &Folder, args: &[&str]) {
+    let mut rustc = Command::new(compiler.as_ref());
+    output(rustc.args(["--edition", "2024", "--out-dir", ".", "-D", "warnings"]).args(args).current_dir(&folder.0));
 }
 
-fn line(trigger: &Trigger) -> String {
-    match trigger.pulse {
-        Some((on, off)) => format!("{on} {off}\n"),
-        None => format!("{}\n", trigger.ticks),
+/// Scenes in which something counts from the edge, some of them in a timer of 16 bits that wraps in the frame.
+fn from_the_edge() -> Vec<(String, Plan)> {
+    let all = "unit = 'ms'\nopen_start = 1\ntimer_hz = 1_000_000\nset_up = 'emulated'\ndelay = 10\n";
+    let curve = format!("{all}open_end = 1\nclose_start = 5\nclose_end = 5\ntriggers = 4\n");
+    let times = format!("{all}trigger_times = [1.5, 2.5, 3.5, 4.5]\n");
+    let scenes = [
+        ("even", &curve, "timer_bits = 16; sync_falls = true; min_gap = 0"),
+        ("lit", &curve, "timer_bits = 16; sync_falls = false; pulse = 0.2; min_gap = 0.1"),
+        ("times", &times, "timer_bits = 16; sync_falls = true; min_gap = 0.5"),
+        ("wide", &curve, "sync_falls = false; min_gap = 0; sync_settles = 20"),
+        ("early", &curve, "sync_falls = false; min_gap = 0; delay = -0.3"),
+    ];
+    scenes.map(|(name, scene, changes)| (name.into(), planned(scene, changes))).into()
+}
+
+/// The speeds of a shutter: three exposures of the same leaves, on one timer.
+fn speeds(names: [&str; 3], changes: &str) -> Vec<(String, Plan)> {
+    let set_up = if changes.contains("duty") { "in_path" } else { "emulated" };
+    let speed = |(name, length): (&str, f64)| {
+        let curve = format!("open_end = 0.5; close_start = {}; close_end = {length}", length - 0.5);
+        let frame = format!("triggers = {}; timer_hz = 1_000_000; min_gap = 0", 2.0 * length);
+        let changes = format!("unit = 'ms'; {curve}; {frame}; set_up = '{set_up}'; {changes}");
+        (name.to_string(), planned(BOX, &changes))
+    };
+    [(names[0], 2.0), (names[1], 4.0), (names[2], 16.0)].map(speed).into()
+}
+
+/// Trigger times without a curve, with a delay, and a speed that has a curve.
+fn measured() -> Vec<(String, Plan)> {
+    let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2.0004, 2.5, 3.1]\nmin_gap = 0.1\n";
+    let curve =
+        "unit = 'ms'\nopen_start = 0\nopen_end = 1\nclose_start = 4\nclose_end = 5\ntriggers = 4\nmin_gap = 0\n";
+    let speed = |(name, scene, delay): (&str, _, _)| {
+        let changes = format!("timer_hz = 1_000_000; set_up = 'emulated'; delay = {delay}");
+        (name.into(), planned(scene, &format!("{changes}; sync_falls = true")))
+    };
+    [("bounce", times, "4.247"), ("good", curve, "4")].map(speed).into()
+}
+
+/// Several plans under one name.
+fn shutters() -> Vec<(&'static str, Vec<(String, Plan)>)> {
+    vec![
+        ("late", speeds(["1-500", "brief", "slow speed"], "delay = 4.247; sync_falls = true")),
+        ("dosed", speeds(["1-60", "longer", "long"], "duty = 0.3")),
+        ("unexplained", measured()),
+    ]
+}
+
+/// When to trigger, or when to switch on and off, in turn.
+fn ticks(plan: &Plan) -> Vec<u32> {
+    let early = plan.sync.early;
+    let of = |it: &Trigger| it.pulse.map_or(vec![it.ticks - early], |(on, off)| vec![on - early, off - early]);
+    plan.triggers.iter().flat_map(of).collect()
+}
+
+/// A plan's numbers, as the programs below print them: each on a line.
+fn numbers(plan: &Plan) -> Vec<u32> {
+    let (ticks, sync, hz) = (ticks(plan), plan.sync, f64::from(plan.timer.hz));
+    let mut all = vec![plan.timer.hz, plan.triggers.len() as u32];
+    all.extend(&ticks);
+    let Some(delay) = sync.delay else { return all };
+    // The frame is over, the lamp has had its gap, and the contact its time to settle.
+    let ticks_of = |time: Option<f64>| (time.unwrap_or_default() * hz).round() as u32;
+    let (gap, settles) = (plan.scene.flashes.min_gap, plan.scene.shutter.sync_settles);
+    let ready = sync.ticks + ticks[ticks.len() - 1] + ticks_of(gap).max(1);
+    all.extend([u32::from(delay.falls.unwrap()), sync.ticks, ready.max(ticks_of(settles))]);
+    let flashes = ticks.chunks(ticks.len() / plan.triggers.len());
+    let on_off = |flash: &[u32]| [flash[0], if flash.len() == 2 { flash[1] } else { flash[0] + 7 }];
+    for flash in [flashes.clone().next(), flashes.last()].into_iter().flatten() {
+        all.extend(on_off(flash).map(|tick| sync.ticks + tick));
     }
+    // Where the timer counted 60 000 at the edge.
+    let last = u32::MAX >> (32 - plan.timer.bits);
+    all.extend(ticks.iter().map(|tick| (60_000 + sync.ticks + tick) & last));
+    all
 }
 
-/// Runs the compiler in a folder, without a warning.
-fn rustc(folder: &Folder, args: &[&str]) {
-    compile(env::var_os("RUSTC").unwrap_or("rustc".into()).as_ref(), folder, args);
+fn lines(numbers: impl IntoIterator<Item = u32>) -> String {
+    numbers.into_iter().map(|number| format!("{number}\n")).collect()
 }
 
-fn compile(compiler: &Path, folder: &Folder, args: &[&str]) {
-    let mut rustc = Command::new(compiler);
-    output(rustc.args(["--edition", "2024", "--out-dir", "."]).args(args).current_dir(&folder.0));
+/// What a program prints of an array of speeds.
+fn of_speeds(plans: &[(String, Plan)], name: fn(&str) -> String) -> String {
+    let speed = |(called, plan): &(String, Plan)| {
+        let edge = plan.sync.delay.map(|_| [plan.sync.ticks, plan.hold_off]);
+        let numbers = edge.into_iter().flatten().chain([plan.triggers.len() as u32]).chain(ticks(plan));
+        format!("{}\n{}", name(called), lines(numbers))
+    };
+    plans.iter().map(speed).collect()
 }
 
-/// The output of a program of these modules and statements.
-fn ran(folder: &Folder, main: &str, args: &[&str]) -> String {
-    folder.write("main.rs", main);
-    rustc(folder, &[args, &["-D", "warnings", "main.rs"]].concat());
-    output(&mut Command::new(folder.path("main")))
-}
-
-/// Compiles a file of modules as a library that asks for documentation, with all that Clippy could say, and checks how
-/// they are written.
-fn is_clean(folder: &Folder, file: &str, modules: &[impl Display], linked: &[&str]) {
-    let module = |name| format!("/// .\npub mod {name};\n");
-    let modules: String = modules.iter().map(module).collect();
-    folder.write(file, format!("//! .\n#![no_std]\n{modules}"));
-    let args = ["--crate-type", "lib", "-D", "missing_docs", "-D", "clippy::pedantic", file];
-    compile("clippy-driver".as_ref(), folder, &[&["-D", "warnings"], linked, &args].concat());
-    let mut rustfmt = Command::new("rustfmt");
-    let with_defaults = ["--check", "--edition", "2024", "--config", "use_small_heuristics=Default"];
-    output(rustfmt.args(with_defaults).arg(file).current_dir(&folder.0));
-}
-
-/// The crate by itself, which has no dependencies, built once; as an argument of the compiler.
-fn the_crate() -> &'static str {
-    static BUILT: OnceLock<String> = OnceLock::new();
-    BUILT.get_or_init(|| {
-        let (folder, source) = (Folder::new("crate"), format!("{SCENES}/../../src/lib.rs"));
-        rustc(&folder, &["--crate-type", "rlib", "--crate-name", "shutter_curve", &source]);
-        format!("shutter_curve={}", folder.path("libshutter_curve.rlib").display())
-    })
-}
-
-/// Without the crate as it is emitted; with its curve, it holds the crate's ticks.
+/// Each module as it is emitted, which needs no crate, and with its curve, which holds the crate's ticks: in a library
+/// that asks for documentation, with all that Clippy could say, and as private modules, of which little is used.
 #[test]
-fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
+fn rust_compiles_and_holds_the_ticks_of_the_crate() {
     let folder = Folder::new("rust");
-    let [mut alone, mut curves] = [const { Vec::new() }; 2];
-    let (mut main, mut expected) = (String::new(), String::new());
-    for (name, planned) in scenes() {
-        let (module, plan) = (format!("scene_{}", name.replace('-', "_")), &planned);
-        let curve = emit(Form::Rust, &name, &planned, true).unwrap();
-        let text = text(Form::Rust, &name, &planned);
-        assert!(!text.contains("shutter_curve") && curve.starts_with(&text), "{text}");
-        let pulses = text.contains("PULSES");
-        assert_eq!((pulses, text.contains("TICKS: [")), (has_pulses(plan), !pulses));
-        folder.write(&format!("{module}.rs"), text);
-        folder.write(&format!("{module}_curve.rs"), curve);
-        main += &format!(
-            "{{ use alone::{module} as scene; use curves::{module}_curve as curve;
-            let _timed = curve::SHUTTER.at(shutter_curve::Hz(curve::TIMER_HZ)).unwrap().min_gap(0).min_pulse(0);\n"
-        );
-        main += match pulses {
-            true => {
-                "assert_eq!(scene::PULSES, curve::PULSES); for (on, off) in scene::PULSES { println!(\"{on} {off}\"); }"
-            }
-            false => {
-                "assert!(_timed.trigger_ticks(curve::COUNT as u32).unwrap().eq(scene::TICKS));
-                for tick in scene::TICKS { println!(\"{tick}\"); }"
-            }
-        };
-        if let Lamp::Doses { duty } = plan.lamp {
-            main += &format!(
-                "let pulses = _timed.pulse_ticks(curve::COUNT as u32, {duty:?}).unwrap();
-                assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(scene::PULSES));"
+    let source = format!("{SCENES}/../../src/lib.rs");
+    rustc(compiler(), &folder, &["--crate-type", "rlib", "--crate-name", "shutter_curve", &source]);
+    let [mut body, mut expected] = [const { String::new() }; 2];
+    let mut modules = Vec::new();
+    let mut add = |name: &str, text: String| {
+        let file = name.replace(|c: char| !c.is_alphanumeric(), "_");
+        folder.write(&format!("{file}.rs"), text);
+        modules.push(file.clone());
+        file
+    };
+    for (name, plan) in scenes().into_iter().chain(from_the_edge()) {
+        let text = text(Form::Rust, &name, &plan);
+        assert!(!text.contains("shutter_curve") && text.starts_with(BY), "{text}");
+        let bits = plan.timer.bits;
+        if plan.curve.is_some() {
+            let curve = emit(Form::Rust, &name, &plan, true).unwrap();
+            assert!(curve.starts_with(&text), "{name}");
+            let file = add(&format!("curve_{name}"), curve);
+            // Of the others the crate knows no more than the curve.
+            let held = match plan.lamp {
+                Lamp::Triggered if bits == 32 && plan.sync.early == 0 => {
+                    "timed.trigger_ticks(COUNT as u32).unwrap().eq(TICKS)".into()
+                }
+                Lamp::Doses { duty } => {
+                    format!("timed.pulse_ticks(COUNT as u32, {duty:?}).unwrap().map(|it| (it.on, it.off)).eq(PULSES)")
+                }
+                _ => "timed.length() > 0".into(),
+            };
+            body += &format!(
+                "{{ use {file}::*;
+                let timed = SHUTTER.at(shutter_curve::Hz(TIMER_HZ)).unwrap().min_gap(0).min_pulse(0);
+                assert!({held}); p(SHUTTER.exposure().to_bits()); }}\n"
             );
+            expected += &lines([curve_of(&plan).exposure().to_bits()]);
         }
-        main += "println!(\"{:08x}\", curve::SHUTTER.exposure().to_bits()); }\n";
-        expected += &format!("{}{:08x}\n", lines(&planned), curve_of(&planned).exposure().to_bits());
-        curves.push(format!("{module}_curve"));
-        alone.push(module);
+        let file = add(&format!("of_{name}"), text);
+        body += &format!("{{ use {file}::*; p(TIMER_HZ); p(u32::try_from(COUNT).unwrap());\n");
+        body += match plan.lamp.has_pulses() {
+            true => "for (on, off) in PULSES { p(on); p(off); }\n",
+            false => "for tick in TICKS { p(tick); }\n",
+        };
+        if plan.sync.delay.is_some() {
+            // In a constant, as a firmware may have it.
+            body += &format!(
+                "const LAST: (u{bits}, u{bits}) = on_off(COUNT - 1, 7);
+                p(SYNC_FALLS); p(DELAY_TICKS); p(HOLD_OFF_TICKS);
+                for (on, off) in [on_off(0, 7), LAST] {{ p(on); p(off); }}\n"
+            );
+            body += match plan.lamp.has_pulses() {
+                true => "for (on, off) in due(60_000) { p(on); p(off); }\n",
+                false => "for tick in due(60_000) { p(tick); }\n",
+            };
+        }
+        body += "}\n";
+        expected += &lines(numbers(&plan));
     }
-    is_clean(&folder, "alone.rs", &alone, &[]);
-    is_clean(&folder, "curves.rs", &curves, &["--extern", the_crate()]);
-    let libraries = ["--extern", "alone=libalone.rlib", "--extern", "curves=libcurves.rlib"];
-    let args = [&libraries[..], &["--extern", the_crate(), "-L", "../crate"]].concat();
-    assert_eq!(ran(&folder, &format!("fn main() {{\n{main}}}\n"), &args), expected);
-}
-
-#[test]
-fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
-    let folder = Folder::new("rust_speeds");
-    let (late, lit) = (speeds("delay = 4.247; sync_falls = true"), speeds("duty = 0.3"));
-    let times = several(Form::Rust, "times", &measured(), false).unwrap();
-    folder.write("times.rs", times);
-    folder.write("late.rs", several(Form::Rust, "late", &late, false).unwrap());
-    folder.write("lit.rs", several(Form::Rust, "lit", &lit, true).unwrap());
-    let one = text(Form::Rust, "one", &late[0].1);
-    let by = concat!("// Made by `shutter plan` ", env!("CARGO_PKG_VERSION"), ".\n");
-    assert!(one.starts_with(by), "{one}");
-    folder.write("one.rs", one);
-    is_clean(&folder, "lib.rs", &["late", "lit", "times"], &["--extern", the_crate()]);
-    // Private modules of which next to nothing is used.
-    let main = r#"mod late; mod lit; mod one; mod times;
-        fn main() {
-            println!("{} {}", late::box_::DELAY_TICKS, late::shutter_1_500::COUNT);
-            for speed in &late::SPEEDS { println!("{} {} {:?}", speed.name, speed.delay_ticks, speed.ticks); }
-            for speed in &times::SPEEDS { println!("{} {:?}", speed.delay_ticks, speed.ticks); }
-            for speed in &lit::SPEEDS {
-                let n = u32::try_from(speed.pulses.len()).unwrap();
-                let timed = speed.shutter.at(shutter_curve::Hz(lit::TIMER_HZ)).unwrap();
-                let pulses = timed.pulse_ticks(n, 0.3).unwrap();
-                assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(speed.pulses.iter().copied()));
-            }
-        }"#;
-    let mut expected = String::from("4247 4\n");
-    for (name, speed) in &late {
-        let ticks: Vec<_> = speed.triggers.iter().map(|trigger| trigger.ticks).collect();
-        expected += &format!("{name} 4247 {ticks:?}\n");
+    for (name, plans) in shutters() {
+        let has_curves = plans.iter().all(|(_, plan)| plan.curve.is_some());
+        let file = add(name, several(Form::Rust, name, &plans, has_curves).unwrap());
+        let edge = if plans[0].1.sync.delay.is_some() { "p(it.delay_ticks); p(it.hold_off_ticks);" } else { "" };
+        let (ticks, print) = match plans[0].1.lamp.has_pulses() {
+            true => ("pulses", "for (on, off) in it.pulses { p(*on); p(*off); }"),
+            false => ("ticks", "for tick in it.ticks { p(*tick); }"),
+        };
+        let curve = if has_curves { "assert!(it.shutter.exposure() > 0.0);" } else { "" };
+        body += &format!(
+            "for it in &{file}::SPEEDS {{
+                println!(\"{{}}\", it.name); {edge} p(u32::try_from(it.{ticks}.len()).unwrap()); {print} {curve} }}\n"
+        );
+        expected += &of_speeds(&plans, str::to_string);
     }
-    expected += "4247 [1000, 1500, 2100]\n4000 [1000, 2000, 3000, 4000]\n";
-    assert_eq!(ran(&folder, main, &["--extern", the_crate()]), expected);
+    modules.sort();
+    let linked = ["--extern", "shutter_curve=libshutter_curve.rlib"];
+    let declared = |of: &str| modules.iter().map(|it| format!("{of}mod {it};\n")).collect::<String>();
+    folder.write("lib.rs", format!("//! .\n#![no_std]\n{}", declared("/// .\npub ")));
+    let lints = ["--crate-type", "lib", "-D", "missing_docs", "-D", "clippy::pedantic", "lib.rs"];
+    rustc("clippy-driver", &folder, &[&linked[..], &lints].concat());
+    let mut rustfmt = Command::new("rustfmt");
+    let with_defaults = ["--check", "--edition", "2024", "--config", "use_small_heuristics=Default", "lib.rs"];
+    output(rustfmt.args(with_defaults).current_dir(&folder.0));
+    let print = "fn p(x: impl Into<u64>) { println!(\"{}\", x.into()); }";
+    folder.write("main.rs", format!("{}{print}\nfn main() {{\n{body}}}\n", declared("")));
+    rustc(compiler(), &folder, &[&linked[..], &["main.rs"]].concat());
+    assert_eq!(output(&mut Command::new(folder.path("main"))), expected);
 }
 
-/// A program by both compilers, without a warning; what it prints, by either.
-fn compiled(folder: &Folder, includes: &str, body: &str) -> String {
-    let source = format!("{includes}#include <stdio.h>\nint main(void) {{\n{body}return 0;\n}}\n");
-    let printed = [("CC", "cc", "-std=c99", "main.c"), ("CXX", "c++", "-std=c++11", "main.cpp")].map(
-        |(variable, compiler, standard, file)| {
-            folder.write(file, &source);
-            let program = folder.path("main");
-            let compiler = env::var(variable).unwrap_or(compiler.into());
-            let is_there = Command::new(&compiler).arg("--version").output().is_ok();
-            assert!(is_there, "no compiler {compiler}: this test compiles headers with $CC, or cc, and $CXX, or c++");
-            let mut compile = Command::new(compiler);
-            compile.args([standard, "-pedantic", "-Wall", "-Wextra", "-Werror", "-o"]);
-            output(compile.arg(&program).arg(folder.path(file)));
-            output(&mut Command::new(&program))
-        },
-    );
-    let [c, cpp] = printed;
-    assert_eq!(c, cpp);
-    c
+fn compiler() -> std::ffi::OsString {
+    env::var_os("RUSTC").unwrap_or("rustc".into())
 }
 
-/// All scenes that ship in one file, each header twice, as headers come.
+/// By what a text was made.
+const BY: &str = concat!("// Made by `shutter plan` ", env!("CARGO_PKG_VERSION"), ".\n");
+
+/// By both compilers, all in one file, each header twice, as headers come, and a speed's own header beside the array's.
 #[test]
 fn c_compiles_in_one_file_and_holds_the_same_ticks() {
     let folder = Folder::new("c");
-    let (mut includes, mut body, mut expected) = (String::new(), String::new(), String::new());
-    let scenes = scenes();
-    for (name, planned) in &scenes {
-        folder.write(&format!("{name}.h"), text(Form::C, name, planned));
-        includes += &format!("#include \"{name}.h\"\n").repeat(2);
-        let (plan, lower) = (planned, name.replace('-', "_"));
-        let upper = lower.to_ascii_uppercase();
-        let print = match has_pulses(plan) {
-            true => format!("\"%lu %lu\\n\", (unsigned long){lower}_on[i], (unsigned long){lower}_off[i]"),
-            false => format!("\"%lu\\n\", (unsigned long){lower}_ticks[i]"),
+    let [mut includes, mut body, mut expected] = [const { String::new() }; 3];
+    let mut add = |file: &str, text: String| {
+        folder.write(file, text);
+        includes += &format!("#include \"{file}\"\n").repeat(2);
+    };
+    for (name, plan) in scenes().into_iter().chain(from_the_edge()) {
+        add(&format!("{name}.h"), text(Form::C, &name, &plan));
+        let (lower, bits) = (identifier(&name), plan.timer.bits);
+        let (upper, n) = (lower.to_ascii_uppercase(), plan.triggers.len());
+        let arrays: &[_] = if plan.lamp.has_pulses() { &["on", "off"] } else { &["ticks"] };
+        let each = |print: &dyn Fn(String) -> String| {
+            let prints: String = arrays.iter().map(|array| print(format!("{lower}_{array}[i]"))).collect();
+            format!("for (int i = 0; i < {n}; i++) {{ {prints} }}\n")
+        };
+        body += &format!("P({upper}_TIMER_HZ); P({upper}_COUNT);\n{}", each(&|ticks| format!("P({ticks});")));
+        if plan.sync.delay.is_some() {
+            let due = each(&|ticks| format!("P({lower}_due((uint{bits}_t)60000, {ticks}));"));
+            body += &format!(
+                "P({upper}_SYNC_FALLS); P({upper}_DELAY_TICKS); P({upper}_HOLD_OFF_TICKS);
+                for (int i = 0; i < 2; i++) {{ uint{bits}_t on, off;
+                    {lower}_on_off(i ? {n} - 1 : 0, 7, &on, &off); P(on); P(off); }}\n{due}"
+            );
+        }
+        expected += &lines(numbers(&plan));
+    }
+    for (name, plans) in shutters() {
+        add(&format!("{name}.h"), several(Form::C, name, &plans, false).unwrap());
+        let (last, plan) = &plans[plans.len() - 1];
+        add("last.h", text(Form::C, last, plan));
+        let array = format!("{name}_speeds[s]");
+        let edge = format!("P({array}.delay_ticks); P({array}.hold_off_ticks);");
+        let edge = if plan.sync.delay.is_some() { &edge } else { "" };
+        let ticks = match plan.lamp.has_pulses() {
+            true => format!("P({array}.on[i]); P({array}.off[i]);"),
+            false => format!("P({array}.ticks[i]);"),
         };
         body += &format!(
-            "printf(\"%lu\\n\", (unsigned long){upper}_TIMER_HZ);
-            for (unsigned i = 0; i < {upper}_COUNT; i++) printf({print});\n"
+            "for (unsigned s = 0; s < {}_SPEEDS; s++) {{ puts({array}.name); {edge} P({array}.count);
+                for (unsigned i = 0; i < {array}.count; i++) {{ {ticks} }} }}\n",
+            name.to_ascii_uppercase()
         );
-        expected += &format!("{}\n{}", plan.timer.hz, lines(planned));
-        if let Some(delay) = plan.sync.delay {
-            body += &format!("printf(\"%lu %d\\n\", (unsigned long){upper}_DELAY_TICKS, {upper}_SYNC_FALLS);\n");
-            expected += &format!("{} {}\n", plan.sync.ticks, u8::from(delay.falls.unwrap()));
-        }
+        expected += &of_speeds(&plans, identifier);
     }
-    assert!(scenes.iter().any(|(_, planned)| planned.sync.delay.is_some()));
-    assert_eq!(compiled(&folder, &includes, &body), expected);
+    let print = "#include <stdio.h>\n#define P(x) printf(\"%lu\\n\", (unsigned long)(x))";
+    let source = format!("{includes}{print}\nint main(void) {{\n{body}return 0;\n}}\n");
+    for (variable, compiler, standard, file) in
+        [("CC", "cc", "-std=c99", "main.c"), ("CXX", "c++", "-std=c++11", "main.cpp")]
+    {
+        folder.write(file, &source);
+        let program = folder.path("main");
+        let compiler = env::var(variable).unwrap_or(compiler.into());
+        let is_there = Command::new(&compiler).arg("--version").output().is_ok();
+        assert!(is_there, "no compiler {compiler}: this test compiles headers with $CC, or cc, and $CXX, or c++");
+        let mut compile = Command::new(compiler);
+        compile.args([standard, "-pedantic", "-Wall", "-Wextra", "-Werror", "-o"]);
+        output(compile.arg(&program).arg(folder.path(file)));
+        assert_eq!(output(&mut Command::new(&program)), expected, "{file}");
+    }
 }
 
 /// A header of the same name with other ticks would be left out in silence.
@@ -235,54 +304,10 @@ fn two_different_headers_of_one_name_do_not_compile() {
     assert!(run.code != Some(0) && told, "{run:?}");
 }
 
-/// The speeds of a shutter: three exposures of the same leaves, on one timer.
-fn speeds(changes: &str) -> Vec<(String, Plan)> {
-    let set_up = if changes.contains("duty") { "in_path" } else { "emulated" };
-    let speed = |(name, length): (&str, f64)| {
-        let curve = format!("open_end = 0.5; close_start = {}; close_end = {length}", length - 0.5);
-        let frame = format!("triggers = {}; timer_hz = 1_000_000; min_gap = 0", 2.0 * length);
-        let changes = format!("unit = 'ms'; {curve}; {frame}; set_up = '{set_up}'; {changes}");
-        (name.to_string(), planned(BOX, &changes))
-    };
-    [("1-500", 2.0), ("box", 4.0), ("slow speed", 16.0)].map(speed).into()
-}
-
-#[test]
-fn speeds_are_an_array_of_c() {
-    let delay = "camera_speeds[s].delay_ticks";
-    let ticks = "\"%lu\\n\", (unsigned long)camera_speeds[s].ticks[i]";
-    let pulse = "\"%lu %lu\\n\", (unsigned long)camera_speeds[s].on[i], (unsigned long)camera_speeds[s].off[i]";
-    let names = ["shutter_1_500", "box", "slow_speed"];
-    for (folder, plans, names, delay, print) in [
-        ("late", speeds("delay = 4.247; sync_falls = true"), &names[..], delay, ticks),
-        ("lit", speeds("duty = 0.3"), &names, "0", pulse),
-        ("times", measured().into(), &["bounce", "good"], delay, ticks),
-    ] {
-        let folder = Folder::new(folder);
-        folder.write("camera.h", several(Form::C, "camera", &plans, false).unwrap());
-        // The same scene by itself is the same text.
-        let (name, slow) = &plans[plans.len() - 1];
-        folder.write("slow.h", text(Form::C, name, slow));
-        let includes = ["camera.h", "slow.h", "camera.h"].map(|file| format!("#include \"{file}\"\n"));
-        let body = format!(
-            "for (unsigned s = 0; s < CAMERA_SPEEDS; s++) {{
-                printf(\"%s %lu \", camera_speeds[s].name, (unsigned long)CAMERA_TIMER_HZ);
-                printf(\"%lu\\n\", (unsigned long){delay});
-                for (unsigned i = 0; i < camera_speeds[s].count; i++) printf({print});
-            }}"
-        );
-        let expected = plans.iter().zip(names).map(|((_, speed), name)| {
-            let delay = speed.sync.ticks;
-            format!("{name} 1000000 {delay}\n{}", lines(speed))
-        });
-        assert_eq!(compiled(&folder, &includes.concat(), &body), expected.collect::<String>());
-    }
-}
-
 #[test]
 fn speeds_that_do_not_go_together_are_refused() {
     let with = |changes: &str| {
-        let mut plans = speeds("delay = 1; sync_falls = true");
+        let mut plans = speeds(["1-500", "box", "slow speed"], "delay = 1; sync_falls = true");
         let curve = "open_end = 1; close_end = 2; timer_hz = 1_000_000; set_up = 'emulated'";
         plans[1].1 = planned(BOX, &format!("{curve}; {changes}"));
         plans
@@ -307,7 +332,7 @@ fn speeds_that_do_not_go_together_are_refused() {
     let plans = with("timer_hz = 999");
     assert!(refused(Form::Csv, &plans).starts_with("timer_hz: "));
     assert!(several(Form::Json, "camera", &plans, false).is_ok());
-    let mut plans = speeds("");
+    let mut plans = speeds(["1-500", "box", "slow speed"], "");
     plans[1].0 = "Slow-Speed".into();
     let reason = "Slow-Speed and slow speed would both be called slow_speed";
     assert_eq!(refused(Form::C, &plans), reason);
@@ -315,7 +340,7 @@ fn speeds_that_do_not_go_together_are_refused() {
 
 #[test]
 fn speeds_are_rows_and_objects() {
-    let plans = speeds("delay = 4.247; sync_falls = true");
+    let plans = speeds(["1-500", "box", "slow speed"], "delay = 4.247; sync_falls = true");
     let csv = several(Form::Csv, "camera", &plans, false).unwrap();
     assert!(csv.starts_with(&format!("{HEAD}1-500,0,0.125,")), "{csv}");
     assert_eq!(csv.lines().count(), 1 + 4 + 8 + 32);
@@ -326,119 +351,28 @@ fn speeds_are_rows_and_objects() {
     assert_eq!((number(&json[0], "delay_s"), number(&json[0], "delay_ticks")), (0.004247, 4247.0));
 }
 
-/// What the boards' projects start from, as the program writes it.
-#[test]
-fn the_modules_of_the_boards_are_those_of_the_measured_scene() {
-    let folder = Folder::new("boards");
-    folder.write("measured.toml", MEASURED);
-    for (board, hz) in [("pico", "125MHz"), ("stm32f4", "100MHz")] {
-        let module = format!("{board}.rs");
-        folder.run(&format!("plan measured.toml --timer-hz {hz} --emit rust --to {module}")).well();
-        let shipped = std::fs::read_to_string(format!("{SCENES}/../../boards/{board}/src/leaf.rs"));
-        assert_eq!(folder.text(&module), shipped.unwrap(), "{board}");
-    }
-}
-
-/// What counts from the edge, in both counts that a timer may have, with a wrap in the frame.
-#[test]
-fn flashes_are_counted_from_the_edge_in_rust_and_in_c() {
-    let folder = Folder::new("edge");
-    let all = "unit = 'ms'\nopen_start = 1\ntimer_hz = 1_000_000\nmin_gap = 0\nset_up = 'emulated'\ndelay = 10\n";
-    let curve = &format!("{all}open_end = 1\nclose_start = 5\nclose_end = 5\ntriggers = 4\n");
-    let times = &format!("{all}trigger_times = [1.5, 2.5, 3.5, 4.5]\n");
-    let [mut mods, mut includes, mut rust, mut c] = [const { String::new() }; 4];
-    let names = ["even", "lit", "times", "wide"];
-    for (name, scene, changes) in [
-        ("even", curve, "timer_bits = 16; sync_falls = true"),
-        ("lit", curve, "timer_bits = 16; sync_falls = false; pulse = 0.2"),
-        ("times", times, "timer_bits = 16; sync_falls = true"),
-        ("wide", curve, "sync_falls = false"),
-    ] {
-        let plan = planned(scene, changes);
-        folder.write(&format!("{name}.rs"), text(Form::Rust, name, &plan));
-        folder.write(&format!("{name}.h"), text(Form::C, name, &plan));
-        mods += &format!("mod {name};\n");
-        includes += &format!("#include \"{name}.h\"\n");
-        let bits = plan.timer.bits;
-        // In a constant, as a firmware may have it.
-        rust += &format!(
-            "{{
-                use {name}::*;
-                const LAST: (u{bits}, u{bits}) = on_off(COUNT - 1, 7);
-                println!(\"{{}} {{:?}} {{LAST:?}} {{:?}}\", SYNC_FALLS, on_off(0, 7), due(60_000).collect::<Vec<_>>());
-            }}\n"
-        );
-        let upper = name.to_uppercase();
-        let due = match name {
-            "lit" => "printf(\"(%d, %d), \", (int)lit_due(60000, lit_on[i]), (int)lit_due(60000, lit_off[i]))".into(),
-            _ => format!("printf(\"%d, \", (int){name}_due(60000, {name}_ticks[i]))"),
-        };
-        c += &format!(
-            "{{
-                uint{bits}_t on, off;
-                printf(\"%s\", {upper}_SYNC_FALLS ? \"true\" : \"false\");
-                {name}_on_off(0, 7, &on, &off); printf(\" (%d, %d)\", (int)on, (int)off);
-                {name}_on_off({upper}_COUNT - 1, 7, &on, &off); printf(\" (%d, %d) [\", (int)on, (int)off);
-                for (int i = 0; i < {upper}_COUNT; i++) {due};
-                printf(\"]\\n\");
-            }}\n"
-        );
-    }
-    is_clean(&folder, "lib.rs", &names, &[]);
-    // 60000 + 10000 + 500 is 4964 after the wrap of 16 bits.
-    let due = "true (10500, 10507) (13500, 13507) [4964, 5964, 6964, 7964]\n";
-    let lit = "false (10400, 10600) (13400, 13600) [(4864, 5064), (5864, 6064), (6864, 7064), (7864, 8064)]\n";
-    let wide = "false (10500, 10507) (13500, 13507) [70500, 71500, 72500, 73500]\n";
-    let expected = [due, lit, due, wide].concat();
-    assert_eq!(ran(&folder, &format!("{mods}fn main() {{\n{rust}}}\n"), &[]), expected);
-    assert_eq!(compiled(&folder, &includes, &c).replace(", ]", "]"), expected);
-}
-
-/// Nobody's set-up, timer or edge is assumed.
+/// Nobody's set-up, timer, gap or edge is assumed, in no form.
 #[test]
 fn hardware_gets_nothing_that_nobody_gave() {
-    let without = |keys: &str| {
-        let plan = planned(MEASURED, keys);
-        let forms = [Form::Rust, Form::C, Form::Csv, Form::Json];
-        let [reason, others @ ..] = forms.map(|form| emit(form, "leaf", &plan, false).unwrap_err());
-        assert!(others.iter().all(|other| *other == reason), "{others:?}");
-        let told = several(Form::C, "camera", &[("leaf".to_string(), plan)], false).unwrap_err();
-        assert_eq!(told, format!("leaf: {reason}"));
-        reason
-    };
-    let head = "hardware needs what only you know; write it below [flashes], or say --set-up, --timer-hz, --min-gap, \
-                --sync-falls:";
-    let gap = "\n  min_gap = ...        # what your lamp needs between two flashes; 0 if that is nothing";
-    let timer = "\n  timer_hz = ...       # your timer's rate, in Hz";
-    let edge = "\n  sync_falls = ...     # true, or false if the delay counts from an edge that rises";
-    let set_up = "
-  set_up = \"emulated\"  # the camera's own shutter stays open: the first, the middle and the last flash \
-         give 100, 100 and 100 %
-  set_up = \"in_path\"   # this shutter is in the light's path, and dims them to 43.5, 100 and 51.2 %; all alike
-                       # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)";
-    assert_eq!(without("timer_hz"), format!("{head}{timer}"));
-    assert_eq!(without("min_gap"), format!("{head}{gap}"));
-    assert_eq!(
-        without("sync_falls = false # the edge of the camera's sync that triggered the oscilloscope -> "),
-        format!("{head}{edge}")
-    );
-    assert_eq!(without("set_up"), format!("{head}{set_up}"));
-    assert_eq!(without("set_up; timer_hz; min_gap"), format!("{head}{set_up}{timer}{gap}"));
+    let edge = "sync_falls = false # the edge of the camera's sync that triggered the oscilloscope -> ";
+    for (without, keys) in [
+        ("timer_hz", &["timer_hz"][..]),
+        ("min_gap", &["min_gap"]),
+        (edge, &["sync_falls"]),
+        ("set_up; timer_hz; min_gap", &["set_up", "set_up", "timer_hz", "min_gap"]),
+    ] {
+        let plan = planned(MEASURED, without);
+        let told = several(Form::C, "camera", &[("leaf".to_string(), plan.clone())], false).unwrap_err();
+        for form in [Form::Rust, Form::C, Form::Csv, Form::Json] {
+            let reason = emit(form, "leaf", &plan, false).unwrap_err();
+            let asked = reason.lines().filter_map(|line| line.split_once(" = ")).map(|it| it.0.trim());
+            let asked = asked.filter(|key| !key.starts_with('#'));
+            assert_eq!((asked.collect::<Vec<_>>(), &told), (keys.to_vec(), &format!("leaf: {reason}")), "{reason}");
+        }
+    }
     // Nobody is left with the one set-up that is offered.
-    let times = planned(crate::refusals::TIMES, "");
-    let asked = emit(Form::C, "times", &times, false).unwrap_err();
+    let asked = emit(Form::C, "times", &planned(TIMES, ""), false).unwrap_err();
     assert!(asked.contains("in the light's path it needs a curve"), "{asked}");
-}
-
-/// Trigger times without a curve, with a delay, and a speed that has one.
-fn measured() -> [(String, Plan); 2] {
-    let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2.0004, 2.5, 3.1]\nmin_gap = 0.1\n";
-    let curve =
-        "unit = 'ms'\nopen_start = 0\nopen_end = 1\nclose_start = 4\nclose_end = 5\ntriggers = 4\nmin_gap = 0\n";
-    [("bounce", times, "4.247"), ("good", curve, "4")].map(|(name, scene, delay)| {
-        let changes = format!("timer_hz = 1_000_000; set_up = 'emulated'; delay = {delay}");
-        (name.into(), planned(scene, &format!("{changes}; sync_falls = true")))
-    })
 }
 
 /// The names of the columns.

@@ -9,7 +9,7 @@ use shutter_plan::plan::Plan;
 use shutter_plan::scene::Scene;
 
 use crate::refusals::{BOX, MEASURED, TRAPEZOID, tables, with};
-use crate::support::{Folder, SCENES, planned, report, run, scene, scenes, table};
+use crate::support::{Folder, SCENES, planned, report, scene, scenes, table};
 
 fn path(scene: &str) -> String {
     format!("{SCENES}/{scene}.toml")
@@ -40,25 +40,6 @@ fn every_scene_that_ships_is_planned_and_drawn() {
             assert_eq!(*gap, format!("{apart:.places$}"), "{name}: {pair:?}");
         }
     }
-}
-
-#[test]
-fn the_default_is_to_plan_the_soft_scene() {
-    let soft = run(&["plan", &path("soft")]).quietly();
-    for args in [&["plan"][..], &[]] {
-        assert_eq!(run(args).quietly(), soft);
-    }
-}
-
-#[test]
-fn a_form_is_all_that_is_printed() {
-    for (name, plan) in scenes() {
-        for (word, form) in [("rust", Form::Rust), ("c", Form::C), ("csv", Form::Csv), ("json", Form::Json)] {
-            let printed = run(&["plan", &path(&name), "--emit", word]).quietly();
-            assert_eq!(printed, emit(form, &name, &plan, false).unwrap());
-        }
-    }
-    run(&["plan", "--emit", "pascal"]).refused("[possible values: rust, c, csv, json]");
 }
 
 /// And so they show the crate as it is. They are drawn by
@@ -116,21 +97,6 @@ fn a_picture_has_a_title_and_colours_for_the_dark() {
         .filter_map(|word| word.strip_prefix("fill=").or(word.strip_prefix("stroke=")).filter(|c| c.starts_with("\"#")))
     {
         assert!(head.contains(&format!("[fill={color}]")), "{color}");
-    }
-}
-
-#[test]
-fn a_box_is_evenly_spaced() {
-    let out = report(&scene("box"));
-    let rows = table(&out);
-    assert_eq!(rows.len(), 10);
-    for (i, row) in rows.iter().enumerate() {
-        // 100 µs at 25 MHz: 250 ticks a share, the trigger in its middle.
-        assert_eq!(row[0], i.to_string());
-        assert_eq!(row[1].parse(), Ok((i as f64 * 2.0 + 1.0) / 20.0));
-        assert_eq!(row[2].parse(), Ok(i as f64 * 10.0 + 5.0));
-        assert_eq!(row[3], (i * 250 + 125).to_string());
-        assert_eq!(row[4].parse().ok(), (i > 0).then_some(10.0));
     }
 }
 
@@ -297,23 +263,6 @@ fn pulses_come_around_the_triggers_or_take_equal_shares() {
     }
 }
 
-/// On a curve that dims, each pulse lets the same dose through: the integral of the openness, here in closed form.
-#[test]
-fn doses_are_equal_through_the_curve() {
-    let triangle = "open_end = 0.5; close_start = 0.5; timer_hz = 100_000_000; min_gap = 0; duty = 0.3";
-    let plan = planned(TRAPEZOID, triangle);
-    let collected = |ticks: u32| {
-        let t = f64::from(ticks) / 1e8;
-        if t < 0.5 { t * t } else { 0.5 - (1.0 - t) * (1.0 - t) }
-    };
-    let pulses: Vec<_> = plan.triggers.iter().filter_map(|it| it.pulse).collect();
-    assert_eq!(pulses.len(), 7);
-    for (on, off) in pulses {
-        let dose = collected(off) - collected(on);
-        assert!((dose - 0.3 * 0.5 / 7.0).abs() < 1e-7, "{on}, {off}: {dose}");
-    }
-}
-
 /// The drawings take the width that there is; 40 columns suffice.
 #[test]
 fn drawings_fit_the_terminal() {
@@ -326,12 +275,6 @@ fn drawings_fit_the_terminal() {
             assert!(fits, "{columns}: {widest:?}\n{text}");
         }
     }
-}
-
-#[test]
-fn help_is_no_error() {
-    let help = run(&["plan", "--help"]).quietly();
-    assert!(help.contains("Usage: shutter plan [OPTIONS] [SCENES]...") && help.ends_with("')\n"));
 }
 
 /// Takes nothing.

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::refusals::{MEASURED, TRAPEZOID, with};
+use crate::refusals::{BOX, MEASURED, TRAPEZOID, with};
 use crate::support::{Folder, SCENES, leaf, rows, sampled, trapezoid};
 
 #[test]
@@ -20,6 +20,7 @@ fn the_session_is_as_it_was() {
     folder.write("sensors.csv", format!("time_s,A,B\n{sensors}"));
     folder.write("measured.toml", MEASURED);
     folder.write("bare.toml", with(TRAPEZOID, ""));
+    folder.write("box.toml", with(BOX, "pulse = 0.1"));
     folder.write("trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
     fs::create_dir(folder.path("folder.csv")).unwrap();
     let said = |line: &str| {
@@ -30,7 +31,8 @@ fn the_session_is_as_it_was() {
             assert!(folder.all() == before, "{line}: a refused run leaves all as it was");
         }
         let code = if run.code == Some(0) { String::new() } else { format!("? {}\n", run.code.unwrap_or(-1)) };
-        format!("{line}\n{code}{}{}", wrapped(&run.out), wrapped(&run.err))
+        let err = run.err.replace("\n\nFor more information, try '--help'.", "");
+        format!("{line}\n{code}{}{}", wrapped(&run.out), wrapped(&err))
     };
     let lines = include_str!("session.txt").lines();
     let now: String = lines.filter(|line| line.starts_with("$ ") || line.starts_with('#')).map(said).collect();

@@ -7,13 +7,15 @@
 //!
 //! `SEED=9000011` before it makes other traces.
 
+use std::error::Error;
 use std::fs;
 use std::ops::{Deref, RangeInclusive};
 
 use crate::generator::{self, Case, Disturbance, Random, SHUTTERS, Shutter, asked, case, quantile, traced, truth};
 use crate::judge;
-use chart::plotters::prelude::*;
+use chart::plotters::prelude::{LineSeries, PathElement, RGBColor, SeriesLabelPosition, Text};
 use chart::plotters::style::text_anchor::{HPos, VPos};
+use chart::{Axis, SCALE};
 use shutter_fit::{Kind, Options};
 
 /// What came of a trace of a shutter.
@@ -178,7 +180,7 @@ fn table() {
         }
     }
     let path = concat!(env!("CARGO_TARGET_TMPDIR"), "/fit-errors.svg");
-    fs::write(path, picture(&white)).expect("the picture is written");
+    fs::write(path, picture(&white).unwrap()).expect("the picture is written");
     println!("\n{path}");
     for n in [1000, 10_000, 100_000, 1_000_000] {
         let mut random = Random::new(7);
@@ -189,83 +191,45 @@ fn table() {
     }
 }
 
-/// The errors of each shutter's traces: every trace a dot, by the share of traces that do better.
-fn picture(rows: &[Row]) -> String {
-    const SIZE: (u32, u32) = (900, 480);
-    const SCALE: u32 = 8;
-    const COLORS: [RGBColor; 7] = [
-        RGBColor(0, 114, 178),
-        RGBColor(213, 94, 0),
-        RGBColor(0, 158, 115),
-        RGBColor(204, 121, 167),
-        RGBColor(230, 159, 0),
-        RGBColor(86, 180, 233),
-        RGBColor(120, 129, 139),
-    ];
-    let drawn = (SIZE.0 * SCALE, SIZE.1 * SCALE);
-    let scale = SCALE as i32;
-    let mut svg = String::new();
-    {
-        let page = SVGBackend::with_string(&mut svg, drawn).into_drawing_area();
-        page.fill(&WHITE).unwrap();
-        let mut graph = ChartBuilder::on(&page)
-            .margin(20 * scale)
-            .x_label_area_size(50 * scale)
-            .y_label_area_size(72 * scale)
-            .build_cartesian_2d((0.001..2.0).log_scale(), 0.0..1.0)
-            .unwrap();
-        graph
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(chart::FAINT.stroke_width(SCALE))
-            .axis_style(chart::GREY.stroke_width(SCALE))
-            .label_style(chart::font(14 * scale))
-            .axis_desc_style(chart::font(15 * scale))
-            .x_desc("error of the trigger times, rms (% of the exposure)")
-            .y_desc("share of the traces that are better")
-            .x_label_formatter(&|x| format!("{x}"))
-            .y_label_formatter(&|y| format!("{:.0} %", 100.0 * y))
-            .draw()
-            .unwrap();
+/// The errors of each shutter's traces, by the share of traces that do better.
+fn picture(rows: &[Row]) -> Result<String, Box<dyn Error>> {
+    let colors = [0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xE69F00, 0x56B4E9, 0x78818B]
+        .map(|rgb: u32| RGBColor((rgb >> 16) as u8, (rgb >> 8) as u8, rgb as u8));
+    let label = |x: &f64| format!("{}", (1e3 * 10f64.powf(*x)).round() / 1e3);
+    let error = Axis {
+        range: -3.0..0.3,
+        name: Some("error of the trigger times, rms (% of the exposure)"),
+        labels: 4,
+        label: &label,
+    };
+    let percent = |share: &f64| format!("{:.0} %", 100.0 * share);
+    let share =
+        Axis { range: 0.0..1.0, name: Some("share of the traces that are better"), labels: 10, label: &percent };
+    chart::picture((900, 480), "Errors of the trigger times of fitted traces, by shutter", |page| {
+        let mut graph = chart::axes(page, error, share, 72)?;
         // What is required.
-        for (error, share) in [(0.05, 0.5), (0.3, 0.9)] {
-            let corner = [(0.001, share), (error, share), (error, 0.0)];
-            let pen = chart::INK.stroke_width(SCALE);
-            graph.draw_series([PathElement::new(corner, pen)]).unwrap();
-            let at = chart::text(13 * scale, HPos::Left, VPos::Top);
-            let (x, y) = (error * 1.04, share - 0.01);
-            let label = format!("{:.0} % within {error} %", 100.0 * share);
-            graph.draw_series([Text::new(label, (x, y), at)]).unwrap();
+        for (error, share) in [(0.05f64, 0.5), (0.3, 0.9)] {
+            let x = error.log10();
+            graph
+                .draw_series([PathElement::new([(-3.0, share), (x, share), (x, 0.0)], chart::pen(chart::INK, 1.0))])?;
+            let name = format!("{} within {error} %", percent(&share));
+            let place = chart::text(13 * SCALE, HPos::Left, VPos::Top);
+            graph.draw_series([Text::new(name, (x + 0.02, share - 0.01), place)])?;
         }
-        for (shutter, color) in SHUTTERS.into_iter().zip(COLORS) {
-            let mut errors: Vec<f64> = of(rows, shutter).iter().map(|row| 100.0 * row.triggers).collect();
+        for (shutter, color) in SHUTTERS.into_iter().zip(colors) {
+            let mut errors: Vec<f64> = of(rows, shutter).iter().map(|row| (100.0 * row.triggers).log10()).collect();
             errors.sort_by(f64::total_cmp);
             let n = errors.len() as f64;
-            let line = errors.into_iter().enumerate().map(|(i, e)| (e.max(0.001), (i as f64 + 0.5) / n));
-            let pen = color.stroke_width(2 * SCALE);
-            let name = match shutter {
-                Shutter::LiquidCrystal => "liquid crystal".into(),
-                Shutter::Symmetric => "symmetric cubics".into(),
-                Shutter::Cubic => "random cubics".into(),
-                _ => format!("{shutter:?}").to_lowercase(),
-            };
-            graph
-                .draw_series(LineSeries::new(line, pen))
-                .unwrap()
-                .label(name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 22 * scale, y)], pen));
+            let line = errors.into_iter().enumerate().map(|(i, x)| (x.max(-3.0), (i as f64 + 0.5) / n));
+            let pen = chart::pen(color, 2.0);
+            let legend = move |(x, y)| PathElement::new([(x, y), (x + 22 * SCALE, y)], pen);
+            graph.draw_series(LineSeries::new(line, pen))?.label(format!("{shutter:?}")).legend(legend);
         }
-        graph
-            .configure_series_labels()
-            .position(SeriesLabelPosition::LowerRight)
-            .legend_area_size(30 * scale)
-            .margin(12 * scale)
-            .label_font(chart::font(14 * scale))
-            .draw()
-            .unwrap();
-        page.present().unwrap();
-    }
-    chart::dressed(&svg, drawn, SIZE, "Errors of the trigger times of fitted traces, by shutter")
+        let mut labels = graph.configure_series_labels();
+        labels.position(SeriesLabelPosition::LowerRight).label_font(chart::font(14 * SCALE));
+        labels.legend_area_size(30 * SCALE).margin(12 * SCALE).draw()?;
+        Ok(())
+    })
 }
 
 /// What a shutter's file is fitted with shows in the fit's own numbers, too.
