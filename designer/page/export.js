@@ -75,7 +75,7 @@ async function written(scene, form) {
     const reason = `hardware needs what only you know: ${lacks.map(([what]) => what).join('; ')}`;
     return { reason, remedies: lacks.flatMap(([, , ...remedies]) => remedies) };
   }
-  const answer = await emitForm(scene, form === 'toml' ? null : form);
+  const answer = await emitForm(scene, form);
   // Overtaken by a newer question: that one's text is it.
   return answer ? answer.Ok ?? { reason: answer.Err } : made;
 }

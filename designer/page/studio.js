@@ -52,15 +52,22 @@ class Asked {
 }
 
 const [scenes, fits] = [new Asked(), new Asked()];
-const json = (scene) => JSON.stringify(toProgram(scene));
+// As TOML, which has no null.
+function toml(it) {
+  if (Array.isArray(it)) return `[${it.map(toml)}]`;
+  if (Object(it) === it) return `{${entries(it).map(([key, value]) => `${key}=${toml(value)}`)}}`;
+  return Math.abs(it) < 1e15 || typeof it !== 'number' ? JSON.stringify(it) : it.toExponential();
+}
+const entries = (table) => Object.entries(table).filter(([, value]) => value != null);
+const text = (tables) => entries(tables).map(([key, value]) => `${key}=${toml(value)}`).join('\n');
 
 /** The answers are `{ Ok }` or `{ Err }`; nothing if something newer came first. */
-export const tellScene = (scene) => scenes.ask('tell', [json(scene)]);
-export const emitForm = (scene, form) => scenes.ask('emit', [scene.name, json(scene), JSON.stringify(form)]);
+export const tellScene = (scene) => scenes.ask('tell', [text(toProgram(scene))]);
+export const emitForm = (scene, form) => scenes.ask('emit', [scene.name, text(toProgram(scene)), form]);
 export const openScene = (name, text) => scenes.ask('open', [name, text]);
 export function fitTrace(name, asked, file, progress) {
   cancelFit();
-  return fits.ask('fit', [name, JSON.stringify(asked)], file, progress);
+  return fits.ask('fit', [name, text(asked)], file, progress);
 }
 
 /** Ends the fit that is computed. */

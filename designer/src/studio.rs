@@ -1,7 +1,8 @@
 //! What is loaded after the page has begun: what is told of a scene, forms to take away, scenes that are opened, fits.
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use serde::de::IntoDeserializer;
+use serde::de::value::Error;
+use serde::{Deserialize, Serialize};
 use shutter_plan::emit::{self, Form};
 use shutter_plan::facts::Facts;
 use shutter_plan::fault::{Fault, Key};
@@ -19,17 +20,17 @@ extern "C" {
     fn progress(share: f64);
 }
 
-/// The facts of a scene, or what is wrong with it. All is in JSON: what was asked for as `Ok`, or else what is wrong as
-/// `Err`.
+/// The facts of a scene, or what is wrong with it. What is asked is in TOML; answers are in JSON: what was asked for as
+/// `Ok`, or else what is wrong as `Err`.
 #[wasm_bindgen]
 pub fn tell(scene: &str) -> String {
     answer(read(scene).map(|scene| told(&scene)))
 }
 
-/// The plan of a scene in one of the forms; without a form, the scene itself.
+/// The plan of a scene in one of the forms; as `toml`, the scene itself.
 #[wasm_bindgen]
 pub fn emit(name: &str, scene: &str, form: &str) -> String {
-    answer(read(scene).and_then(|scene| emitted(name, &scene, read(form)?)))
+    answer(read(scene).and_then(|scene| emitted(name, &scene, form)))
 }
 
 /// The scene that a text has.
@@ -41,11 +42,15 @@ pub fn open(name: &str, text: &str) -> String {
 /// The scene that fits the trace in `bytes`, which is read as is asked for. It tells its progress.
 #[wasm_bindgen]
 pub fn fit(name: &str, asked: &str, bytes: Vec<u8>) -> String {
-    answer(read(asked).map(|asked: Asked| measured(name, bytes, &asked, &mut |share| progress(share))))
+    let asked = toml::from_str(asked).map_err(|error| error.message().to_string());
+    answer(asked.map(|asked: Asked| measured(name, bytes, &asked, &mut |share| progress(share))))
 }
 
-fn read<T: DeserializeOwned>(json: &str) -> Result<T, String> {
-    serde_json::from_str(json).map_err(|error| error.to_string())
+/// The scene that the page has. One that was changed by hand keeps the checksum that it does not match.
+fn read(text: &str) -> Result<Scene, String> {
+    let scene = Scene::parse(text).map_err(|fault| fault.reason())?;
+    let is_edited = scene.shutter.measured.as_ref().is_some_and(|it| it.checksum.is_some());
+    Ok(Scene { is_edited, ..scene })
 }
 
 fn answer(answer: Result<impl Serialize, String>) -> String {
@@ -120,8 +125,9 @@ struct Emitted {
     file: String,
 }
 
-fn emitted(name: &str, scene: &Scene, form: Option<Form>) -> Result<Emitted, String> {
-    let Some(form) = form else {
+fn emitted(name: &str, scene: &Scene, form: &str) -> Result<Emitted, String> {
+    let form: Result<_, Error> = Form::deserialize(form.into_deserializer());
+    let Ok(form) = form else {
         return Ok(Emitted { text: text(scene), file: file(name) });
     };
     let plan = Plan::new(scene).map_err(|fault| fault.reason())?;
@@ -136,12 +142,15 @@ fn file(name: &str) -> String {
 
 /// The scene, if it can be planned.
 fn opened(name: &str, text: &str) -> Result<Scene, String> {
-    let scene = Scene::parse(text).map_err(|fault| fault.locate(name, text))?;
+    let mut scene = Scene::parse(text).map_err(|fault| fault.locate(name, text))?;
     if scene.shutter.trigger_times.is_some() {
         let reason = "these are trigger times as they were measured, and this page needs the curve that they lack: \
                       open their trace here, or give the times to `shutter plan` in a terminal";
         return Err(format!("{name}: {reason}"));
     }
     Plan::new(&scene).map_err(|fault| fault.locate(name, text))?;
+    if let Some(measured) = scene.shutter.measured.as_mut().filter(|_| !scene.is_edited) {
+        measured.checksum = None;
+    }
     Ok(scene)
 }

@@ -169,15 +169,15 @@ impl Shutter {
         self.unit.unwrap_or(Unit::Second)
     }
 
-    /// As a table of a scene's text, with its checksum where it was measured.
+    /// As a table of a scene's text, with its checksum where it was measured: its own, or the one that it has.
     pub fn text(&self) -> String {
         #[derive(Serialize)]
         struct Table<'a> {
             shutter: &'a Shutter,
         }
         let text = toml::to_string(&Table { shutter: self }).expect("numbers and texts are TOML");
-        let sum = checksum(&text);
-        if self.measured.is_some() { format!("{text}{CHECKSUM}\"{sum}\"\n") } else { text }
+        let lacks_sum = self.measured.as_ref().is_some_and(|it| it.checksum.is_none());
+        if lacks_sum { format!("{text}{CHECKSUM}\"{}\"\n", checksum(&text)) } else { text }
     }
 }
 

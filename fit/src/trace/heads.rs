@@ -45,9 +45,9 @@ impl Heads {
         let found = match column {
             Column::Number(number) => number.checked_sub(1),
             Column::Name(name) => {
-                let wanted = name.to_lowercase();
-                let has = |k: &usize| self.name(*k).is_some_and(|n| n.to_lowercase().contains(&wanted));
-                let exact = self.names[0].iter().position(|n| n.to_lowercase() == wanted);
+                let wanted = name.to_ascii_lowercase();
+                let has = |k: &usize| self.name(*k).is_some_and(|n| n.to_ascii_lowercase().contains(&wanted));
+                let exact = self.names[0].iter().position(|n| n.to_ascii_lowercase() == wanted);
                 exact.or_else(|| (0..self.width).find(has))
             }
         };

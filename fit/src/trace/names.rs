@@ -80,7 +80,7 @@ fn meaning(name: &str) -> Option<Means> {
 
 /// A text's words in lower case, with one letter for micro.
 pub fn words(text: &str) -> Vec<String> {
-    let text = text.to_lowercase().replace(['μ', char::REPLACEMENT_CHARACTER], "µ");
+    let text = text.to_ascii_lowercase().replace(['μ', char::REPLACEMENT_CHARACTER], "µ");
     text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(String::from).collect()
 }
 

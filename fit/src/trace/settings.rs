@@ -26,7 +26,7 @@ fn value(text: &str, form: Form) -> Option<Value> {
     if rest.starts_with('/') || rest.contains(char::is_numeric) {
         return None;
     }
-    Some(match unit.to_lowercase().as_str() {
+    Some(match unit.to_ascii_lowercase().as_str() {
         // Of `50.000 Hz` it stays open what the point means.
         "hz" if is_grouped(digits, '.') => return None,
         "hz" => Value::Hertz(x),
@@ -70,7 +70,7 @@ impl Settings {
                     settings.add(means, &short_of(&format!("{field} {below}")), below, form);
                 }
             }
-            let words = line.to_lowercase();
+            let words = line.to_ascii_lowercase();
             let has = |parts: &[&str]| parts.iter().any(|part| words.contains(part));
             if settings.steps.len() > known || !line.contains(|c: char| c.is_ascii_digit()) {
                 continue;

@@ -45,7 +45,7 @@ pub fn modules(called: &str, modules: &[Module], curve: bool) -> String {
     let Some(one) = modules.first() else { return String::new() };
     let (int, n, origin) = (int(one), modules.len(), super::origin(modules));
     let (what, (array, of)) = (what(&one.ticks), array(&one.ticks, int));
-    let field = array.to_lowercase();
+    let field = array.to_ascii_lowercase();
     // What each field is, its type, and its item in the module of a speed.
     let mut fields = vec![("See `DELAY_TICKS`.", "delay_ticks", int, "", "DELAY_TICKS")];
     fields.push(("See `HOLD_OFF_TICKS`.", "hold_off_ticks", int, "", "HOLD_OFF_TICKS"));
