@@ -6,7 +6,7 @@ export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
 /** The program's keys, and of which kind their values are. */
 const SYNC = { delay: 'time', delay_spread: 'time', sync_falls: 'yes' };
-const SHUTTER = { ...SYNC, nominal: 'dial' };
+const SHUTTER = { ...SYNC, sync_settles: 'time', nominal: 'dial' };
 const FLASHES = {
   triggers: 'count', min_gap: 'time', timer_hz: 'rate', timer_bits: 'count', set_up: ['emulated', 'in_path'],
   pulse: 'time', duty: 'part', min_pulse: 'time', fully_open: 'yes', lamp_lag: 'time', ...SYNC,
@@ -67,8 +67,8 @@ export function fromScene(name, { shutter, flashes }) {
 
 /** The scene as the program takes it. */
 export function toProgram({ unit, shutter, flashes, own }) {
-  const { nominal, delay, delay_spread, sync_falls, measured } = shutter;
-  const of = own ? { ...own, nominal, delay, delay_spread, sync_falls, measured } : shutter;
+  const { open_start, open_end, close_start, close_end, shutteropening, ...rest } = shutter;
+  const of = own ? { ...own, ...rest } : shutter;
   return { shutter: { unit, ...of }, flashes: { unit, ...flashes } };
 }
 
@@ -170,10 +170,10 @@ export function withValues(scene, values) {
   for (const [key, value] of Object.entries(values)) {
     if (key === 'delay') {
       const { sync_falls, delay_spread } = syncOf({ shutter, flashes });
-      const none = { delay: null, delay_spread: null, sync_falls: null };
-      const { measured } = shutter;
+      const none = { delay: null, delay_spread: null, sync_falls: null }, { measured } = shutter;
       // What a trace tells stays beside what counts.
       if (!measured || value === null) shutter = { ...shutter, ...none };
+      if (value === null) shutter = { ...shutter, sync_settles: null };
       if (measured && value === null) {
         const { sync, delay_error, trigger_error, delay_worst, shots, ...rest } = measured;
         shutter.measured = rest;
@@ -243,7 +243,7 @@ const isNumber = (x) => Number.isFinite(x) && x >= 0;
 
 function isSpeed(it) {
   const words = [it?.name, it?.kind, ...(it?.doubts ?? [null])];
-  const isDial = it?.dial == null || (it.dial > 0 && it.dial < Infinity);
+  const isDial = [it?.near, it?.dial].every((x) => x == null || (x > 0 && x < Infinity));
   const numbers = [it?.exposure, it?.error, it?.scatter, it?.pulses];
   return isDial && words.every((it) => typeof it === 'string') && numbers.every(isNumber);
 }

@@ -80,6 +80,7 @@ impl Question {
             "shutter.delay" => shutter.delay = x,
             "shutter.delay_spread" => shutter.delay_spread = x,
             "shutter.sync_falls" => shutter.sync_falls = is,
+            "shutter.sync_settles" => shutter.sync_settles = x,
             "shutter.nominal" => shutter.nominal = x,
             "own.open_start" => own.open_start = x,
             "own.trigger_times" => own.trigger_times = Some(numbers),
