@@ -9,16 +9,6 @@ import { inWords, toldNow } from './told.js';
 import { leads } from './trace.js';
 import { asFitted, inUnit, isSameShape, perSecond, short } from './scene.js';
 
-const PARTS_OF_SECOND = [8000, 4000, 2000, 1000, 500, 250, 125, 60, 30, 15, 8, 4, 2];
-const DIALS = [...PARTS_OF_SECOND.map((part) => 1 / part), 1, 2, 4, 8, 16, 32];
-
-/** The nearest full stop of today's dials; nothing where none is near. */
-export function nearest(exposure) {
-  const far = (dial) => Math.abs(Math.log2(exposure / dial));
-  const found = DIALS.reduce((a, b) => (far(b) < far(a) ? b : a));
-  return far(found) < 0.75 ? found : null;
-}
-
 /** By how many stops one exposure is longer than another. */
 export function stops(exposure, nominal) {
   const ev = Math.log2(exposure / nominal);
@@ -80,7 +70,7 @@ export function drawFacts(model, samples) {
   // A curve that does not explain its trace tells no exposure; the trace does.
   const exposure = fit ? fit.exposure_s : own ? null : view.exposure;
   if (exposure !== null) {
-    const near = fit && nearest(exposure), dialled = nominal / perSecond(unit);
+    const near = fit?.nearest_s, dialled = nominal / perSecond(unit);
     const called = nominal ? ` for ${dial(dialled)}: ${stops(exposure, dialled)}`
       : near ? `; nearest full stop: ${dial(near)}` : '';
     const all = [...facts], at = all.findIndex(([label]) => label === 'exposure') + 1;

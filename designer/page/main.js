@@ -3,7 +3,6 @@
 import { presets, repository as REPOSITORY } from 'presets';
 import { html, nothing, render } from 'lit-html';
 import { $, arrowed } from './dom.js';
-import { drawBar } from './bar.js';
 import { drawExport, showExport, startExport } from './export.js';
 import { drawFacts } from './facts.js';
 import { drawForm, startForm } from './form.js';
@@ -13,7 +12,7 @@ import { drawPhoto } from './photo.js';
 import { FIELDS, KINDS, fromScene, hash, inUnit, originOf, perSecond, syncOf, toProgram, valueOf } from './scene.js';
 import { drawSpeeds } from './speeds.js';
 import { drawTicks } from './ticks.js';
-import { askProgram, inWords, known } from './told.js';
+import { askProgram, drawBar, inWords, known } from './told.js';
 import { drawTrace, openFiles, startTraces } from './trace.js';
 import { fileOf, loadEngine, viewOf } from './view.js';
 

@@ -3,7 +3,7 @@
 import { html, render } from 'lit-html';
 import { $, watch } from './dom.js';
 import { copyLink } from './export.js';
-import { doubt, nearest, stops } from './facts.js';
+import { doubt, stops } from './facts.js';
 import { change, model } from './model.js';
 import { dial, taken } from './numbers.js';
 import { short } from './scene.js';
@@ -35,14 +35,13 @@ export function drawSpeeds({ now: { speeds }, pending }) {
 }
 
 function line(row, speeds) {
-  const { name, kind, exposure, error, scatter, pulses, doubts } = row;
+  const { name, kind, exposure, error, near, scatter, pulses, doubts } = row;
   const file = rowFiles.get(row);
   const show = () => readTrace(file, {});
   const link = html`<button type="button" class="plain" title="Show this trace" @click=${show}>${name}</button>`;
   const of = (cells) => html`<tr role="row"><th scope="row" role="rowheader">${file ? link : name}</th>
     ${cells.map((it, i) => html`<td role="cell" data-label=${COLUMNS[i + 1]}><span>${it}</span></td>`)}</tr>`;
   if (!exposure) return of([...Array(6).fill('–'), kind]);
-  const speed = nearest(exposure);
   const [by, unit] = exposure < 1 ? [1000, 'ms'] : [1, 's'];
   // The last digit of each is of the same size.
   const off = short(error * by, 1), places = Math.min(9, Math.max(0, -Math.floor(Math.log10(off))));
@@ -54,7 +53,7 @@ function line(row, speeds) {
   const asked = html`<input aria-label="${name}: on the dial" placeholder="1/…" .value=${row.dial ? dial(row.dial) : ''}
     @change=${taken('dial', says, 's', (x) => x > 0 && x < Infinity)}>`;
   return of([
-    html`${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}`, speed ? dial(speed) : '–', asked,
+    html`${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}`, near ? dial(near) : '–', asked,
     row.dial ? stops(exposure, row.dial) : '–', pulses > 1 ? `${short(100 * scatter, 2)} %` : '–', pulses, kind,
   ]);
 }

@@ -9,19 +9,15 @@ import { perSecond } from './scene.js';
 const MOST_ROWS = 300;
 
 const isNewTicks = watch();
-// The rows as they are written.
-let tickRows = [];
 
-/** As the CSV has it, in the scene's unit. Of a draft, as while a handle is dragged, only rows in sight are written. */
+/** As the CSV has it, in the scene's unit. */
 export function drawTicks(model) {
-  const { now: { scene: { unit, flashes: { timer_hz } } }, view, isDraft } = model;
+  const { now: { scene: { unit, flashes: { timer_hz } } }, view } = model;
   const plan = view?.plan.Ok, coarse = doubtsOf(model).find(({ about }) => about === 'timer')?.text;
-  if (!plan || !isNewTicks(view, unit, isDraft, coarse)) return;
+  if (!plan || !isNewTicks(view, unit, coarse)) return;
   const { pulses, delay, ticks } = plan, { marks } = view;
   const n = marks.length, hidden = Math.max(0, n - MOST_ROWS), per = perSecond(unit);
-  const box = $('ticks').parentElement, row = box.scrollHeight / (n - hidden + 1);
   const places = Math.min(12, Math.max(0, 5 - Math.floor(Math.log10(Math.abs(marks.at(-1)[0] * per)))));
-  const isInSight = (k) => !isDraft || (k > box.scrollTop / row - 2 && k < (box.scrollTop + box.clientHeight) / row);
   // Without a timer there are no ticks.
   const columns = [
     ['#', (i) => i], ['share', (i) => marks[i][2].toFixed(5)],
@@ -32,14 +28,12 @@ export function drawTicks(model) {
       ...(pulses.length ? [['on', (i) => pulses[i][0]], ['off', (i) => pulses[i][1]]] : []),
     ]),
   ];
-  const written = tickRows.length === n - hidden && tickRows;
-  tickRows = Array.from({ length: n - hidden }, (_, k) => {
-    if (written && !isInSight(k)) return written[k];
+  const rows = Array.from({ length: n - hidden }, (_, k) => {
     const i = hidden && k >= MOST_ROWS / 2 ? k + hidden : k;
     return html`<tr>${columns.map(([, of]) => html`<td>${of(i)}</td>`)}</tr>`;
   });
   const heads = columns.map(([name]) => html`<th scope="col">${name}</th>`);
   const many = hidden ? `without ${hidden} in the middle; the CSV has all` : n;
   render([many, coarse ? doubt(coarse) : nothing], $('ticks-note'));
-  render(html`<thead><tr>${heads}</tr></thead><tbody>${tickRows}</tbody>`, $('ticks'));
+  render(html`<thead><tr>${heads}</tr></thead><tbody>${rows}</tbody>`, $('ticks'));
 }

@@ -1,8 +1,11 @@
-// What the program tells of a scene, in its words, with the page's names in place of its keys.
+// What the program tells of a scene, in its words, with the page's names in place of its keys. And the bar, where it is
+// seen wherever one is: what is wrong, computed or told, and which fields that is about.
 
-import { $ } from './dom.js';
-import { model, tell } from './model.js';
-import { INNER, KINDS } from './scene.js';
+import { html, render } from 'lit-html';
+import { $, watch, write } from './dom.js';
+import { helps } from './export.js';
+import { go, model, tell } from './model.js';
+import { FIELDS, INNER, KINDS } from './scene.js';
 import { tellScene } from './studio.js';
 
 /** What was told of scenes when the page was built. */
@@ -27,8 +30,8 @@ export const toldNow = ({ told, now }) => (told?.scene === now.scene ? told : nu
 export const label = (id) =>
   id === 'fully_open' ? 'flashes while fully open' : $(id)?.labels[0].firstChild.data.trim().replace(/,$/, '') ?? id;
 
-/** The fields that a key is about, as `flashes.triggers`. */
-export function fieldsOf({ key = '', inner }) {
+// The fields that a key is about, as `flashes.triggers`.
+function fieldsOf({ key = '', inner }) {
   const name = key.split('.').pop();
   return name === 'shutteropening' ? INNER.slice(...(inner ?? [])) : name === 'trigger_times' ? ['triggers'] : [name];
 }
@@ -44,8 +47,8 @@ export const inWords = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g
   .replace(NAMES, (_, key) => PLACES[key] ?? `“${label(key)}”`)
   .replace(/(?<=\w)'(?=\w)/g, '’').replace(/\btrigger(s?)\b/g, (_, many) => (many ? 'flashes' : 'flash'));
 
-/** What is wrong, once it is known in words. */
-export function wordsOf(model) {
+// What is wrong, once it is known in words.
+function wordsOf(model) {
   const { wrong } = model;
   if (!wrong || wrong.reason) return wrong?.reason ?? '';
   const told = toldNow(model)?.wrong;
@@ -54,5 +57,47 @@ export function wordsOf(model) {
   return `${wrong.isLink ? 'The link holds no curve: ' : ''}${field ? `${label(field)}: ` : ''}${inWords(told.text)}`;
 }
 
-/** What would help, as [words, the flashes that do]. */
-export const remedies = (model) => (model.wrong?.reason ? [] : toldNow(model)?.wrong?.remedies ?? []);
+// What would help, as [words, the flashes that do].
+const remedies = (model) => (model.wrong?.reason ? [] : toldNow(model)?.wrong?.remedies ?? []);
+
+const isNewWrong = watch(), isNewBusy = watch();
+const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
+const showRead = () => {
+  const why = $('trace').querySelector('.wrong');
+  why.focus();
+  why.scrollIntoView({ block: 'center' });
+};
+
+// What a person can do about it.
+function buttonsFor(model) {
+  const { wrong, note, pending } = model;
+  if (wrong?.isLink) return button('Go on without it', () => go(-1));
+  if (wrong) return helps(remedies(model));
+  if (!note) return [];
+  const close = button('Close', () => tell({ note: null }));
+  return [note.act ? button(...note.act) : [], pending ? button('Show why', showRead) : [], close];
+}
+
+/** Draws it. */
+export function drawBar(model) {
+  const { wrong, busy, note, pending, view } = model, words = wrong ? wordsOf(model) : note?.words ?? '';
+  // While something is computed, a button that is pressed stays.
+  if (isNewWrong(wrong, words, note, pending, view)) {
+    $('problem').hidden = !words;
+    $('problem').classList.toggle('wrong', Boolean(wrong || note?.isWrong));
+    render(html`<span>${words}</span><span class="buttons">${buttonsFor(model)}</span>`, $('problem'));
+  }
+  if (isNewBusy(busy, busy?.words, busy?.share)) {
+    $('busy').hidden = !busy;
+    const share = busy?.share ? `: ${Math.round(100 * busy.share)} %` : '';
+    if (busy) write($('busy').firstElementChild, `${busy.words}${share} …`);
+  }
+  const at = !wrong ? [] : wrong.id ? [wrong.id] : fieldsOf(wrong);
+  for (const id of FIELDS) {
+    const field = $(id), is = at.includes(id);
+    if (is && $('inner').contains(field)) $('inner').open = true;
+    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
+      is ? field.setAttribute(name, value) : field.removeAttribute(name);
+    }
+  }
+}

@@ -157,12 +157,13 @@ async function measure(files) {
     const answer = await fitted(busy, file, { triggers: 12 });
     if (!answer) return;
     const fit = answer.Ok?.fit.Ok;
-    const row = { name: file.name, exposure: 0, error: 0, scatter: 0, pulses: 0, dial: null, doubts: [] };
+    const row = { name: file.name, exposure: 0, error: 0, scatter: 0, pulses: 0, near: null, dial: null, doubts: [] };
     if (fit) {
       row.kind = fit.shutter.trigger_times ? 'the trace itself' : fit.kind;
       row.doubts = fit.warnings.map(({ text }) => text);
-      const { exposure_s, exposure_error_s, scatter, pulses } = fit;
-      const told = { exposure: exposure_s, error: exposure_error_s, scatter, pulses };
+      const { exposure_s: exposure, exposure_error_s: error, scatter, pulses } = fit;
+      row.near = fit.nearest_s;
+      const told = { exposure, error, scatter, pulses };
       for (const [key, x] of Object.entries(told)) row[key] = tidy(x, 6);
     } else row.kind = `not measured: ${(answer.Err ?? answer.Ok.fit.Err.text).split('\n')[0]}`;
     rowFiles.set(row, file);

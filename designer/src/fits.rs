@@ -60,6 +60,8 @@ struct Fitted {
     kind: &'static str,
     exposure_s: f64,
     exposure_error_s: f64,
+    /// The nearest full stop of a dial.
+    nearest_s: Option<f64>,
     pulses: usize,
     pulse: usize,
     /// By what share the exposures of all pulses differ.
@@ -135,6 +137,7 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         kind: fit.chosen.title(),
         exposure_s: fit.exposure.value,
         exposure_error_s: fit.exposure.error,
+        nearest_s: speed::nearest(fit.exposure.value),
         pulses: fit.frames.count,
         pulse: fit.frames.fitted,
         scatter: fit.frames.scatter,

@@ -14,22 +14,22 @@ fn dial(seconds: f64, places: usize) -> String {
     if seconds < 0.3 { format!("1/{:.places$} s", 1.0 / seconds) } else { format!("{} s", short(seconds, 3)) }
 }
 
-/// The nearest speed of the scale, in seconds.
-fn nearest(seconds: f64) -> f64 {
+/// The nearest speed of the scale, in seconds; none where that is more than a step away, as of what is no camera's
+/// shutter.
+pub fn nearest(seconds: f64) -> Option<f64> {
     let whole = (0..10).map(|k| f64::from(1 << k));
     let scale = FRACTIONS.into_iter().map(|part| 1.0 / part).chain(whole);
     let far = |speed: &f64| (seconds / speed).log2().abs();
-    scale.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(1.0)
+    scale.min_by(|a, b| far(a).total_cmp(&far(b))).filter(|it| far(it) < 0.75)
 }
 
-/// The exposure beside what it is called, or the nearest speed of the scale; none where that is more than a step away,
-/// as of what is no camera's shutter.
+/// The exposure beside what it is called, or the nearest speed of the scale.
 pub fn speed(fit: &Fit) -> Option<String> {
     let seconds = fit.exposure.value;
     let (nominal, called) = match fit.nominal {
         Some(nominal) => (nominal, format!("{} nominal", dial(nominal, 0))),
         None => {
-            let nearest = nearest(seconds);
+            let nearest = nearest(seconds)?;
             (nearest, format!("nearest full stop {}", dial(nearest, 0)))
         }
     };
@@ -38,8 +38,7 @@ pub fn speed(fit: &Fit) -> Option<String> {
     let parts = 1.0 / seconds;
     let places = decimals(parts * fit.exposure.error / seconds, 1).min(usize::from(parts < 100.0));
     let dial = dial(seconds, places);
-    let is_told = fit.nominal.is_some() || ev.abs() < 0.75;
-    is_told.then(|| format!("{dial} measured, {called}: {} EV", stops(ev)))
+    Some(format!("{dial} measured, {called}: {} EV", stops(ev)))
 }
 
 /// T1 to T3, as testers call them, with their errors, and TE and TOT to the digits that the length's error leaves.
