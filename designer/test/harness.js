@@ -248,6 +248,17 @@ export async function drop(...files) {
   }, files.map(([name, text]) => [name, String(text), typeof text === 'function']));
 }
 
+/** Drops a trace, and waits for its fit. */
+export async function measure(name, text) {
+  await drop([name, text]);
+  await fitted(name);
+}
+
+/** Types in fields, one after the other. */
+export async function fill(values) {
+  for (const [id, value] of Object.entries(values)) await page.fill(`#${id}`, value);
+}
+
 /** A trace: it opens in `up`, is open for `open`, closes in `down`, in ms; with noise, and what `more` adds. */
 export function trace({
   up = 2, open = 4, down = 3, from = 3, step = 0.01, samples = 1500, more = () => 0, seed = 1, noise = 0.01,

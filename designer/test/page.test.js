@@ -8,8 +8,8 @@ import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
   ROOT, SCENES, SOFT, bouncing, browser, choose, clipped, complaints, copied, copiedBy, curve, drag, dragged, drawn,
-  drop, ended, extend, facts, fitted, forgive, hold, middle, open, page, planned, preset, problem, ready, refused, rows,
-  saved, scratch, setUp, settled, shutter, sine, synced, ticks, told, trace, url, written,
+  drop, ended, extend, facts, fill, fitted, forgive, hold, measure, middle, open, page, planned, preset, problem, ready,
+  refused, rows, saved, scratch, setUp, settled, shutter, sine, synced, ticks, told, trace, url, written,
 } from './harness.js';
 
 // Everything within one ramp or the other: the most that a curve can ask of the crate.
@@ -100,11 +100,9 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
     assert.ok(!(await page.isSeen('#problem')), id);
   }
   // Nor do the facts say anything false of what is refused.
-  await page.fill('#delay', '3');
-  await page.fill('#timer_bits', '8');
+  await fill({ delay: '3', timer_bits: '8' });
   assert.doesNotMatch(await facts(), /delay/, 'nothing of a plan that there is not');
-  await page.fill('#timer_bits', '');
-  await page.fill('#open_end', '8');
+  await fill({ timer_bits: '', open_end: '8' });
   const inner = await Promise.all(['t1', 't2', 't5'].map((id) => page.value(`#${id}`)));
   assert.deepEqual(inner, ['0.2', '0.3', '0.85'], 'a time takes its ramp along');
 });
@@ -192,17 +190,9 @@ test('handles in one place can each be taken, and keys move each within its box'
   }
 });
 
-test('each copied form is the program’s, and is saved under its name', async () => {
+test('each form is saved under its name', async () => {
   await open();
-  for (const name of ['leaf', 'box', 'liquid-crystal']) {
-    await preset(name);
-    assert.equal(await copied('json'), shutter('plan', join(SCENES, `${name}.toml`), '--emit', 'json'), name);
-    if (name === 'leaf') for (const [id, value] of [['min_gap', '0'], ['set_up', 'in_path'], ['lamp', 'duty']]) {
-      await page.fill(`#${id}`, value);
-    }
-    for (const form of ['rust', 'c', 'csv', 'json']) assert.equal(await copied(form), await planned(form, name), form);
-    assert.deepEqual(await ticks(), JSON.parse(await copied('json')).triggers.map((it) => it.ticks));
-  }
+  await preset('liquid-crystal');
   const files = { rust: 'liquid_crystal.rs', c: 'liquid_crystal.h', toml: 'liquid-crystal.toml' };
   for (const [form, file] of Object.entries(files)) {
     await choose(form);
@@ -240,12 +230,10 @@ test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, wh
   assert.match(rust, /SYNC_FALLS: bool = true/);
   assert.equal(rust, await planned('rust', 'soft'));
   // A lamp that takes pulses: its module has no ticks that firmware could take for them.
-  await page.fill('#min_gap', '0');
-  await page.fill('#lamp', 'duty');
+  await fill({ min_gap: '0', lamp: 'duty' });
   assert.match(await copied('rust'), /PULSES: \[\(u32, u32\)/);
   assert.doesNotMatch(await copied('rust'), /TICKS: \[/);
-  await page.fill('#min_gap', '0.4');
-  await page.fill('#lamp', 'full');
+  await fill({ min_gap: '0.4', lamp: 'full' });
   assert.match(await copied('toml'), /^fully_open = true$/m);
   assert.deepEqual(await ticks(), JSON.parse(await planned('json', 'soft')).triggers.map((it) => it.ticks));
 });
@@ -298,13 +286,10 @@ test('the delay ends at the opening: the edge of the sync stands still, whatever
 
 test('on a trace the edge stands where the sync has it, and nothing that a hand moved is taken away', async () => {
   await open('');
-  await drop(['two.csv', synced()]);
-  await fitted('two.csv');
+  await measure('two.csv', synced());
   await page.fill('#trace [name=sync]', '3');
   await page.until(() => designer.model.now.scene.shutter.delay !== null && !designer.model.busy);
-  for (const [id, value] of [['timer_hz', '1 MHz'], ['set_up', 'emulated'], ['min_gap', '0']]) {
-    await page.fill(`#${id}`, value);
-  }
+  await fill({ timer_hz: '1 MHz', set_up: 'emulated', min_gap: '0' });
   const edge = () => page.evaluate(() => designer.originOf(designer.model.now.scene));
   const same = async (x) => assert.ok(Math.abs((await edge()) - x) < 1e-9, String(await edge()));
   const first = await edge(), text = await facts(), fit = await copied('toml');
@@ -339,8 +324,7 @@ test('on a trace the edge stands where the sync has it, and nothing that a hand 
 
 test('a doubt of a fit goes with the fit: what is drawn is doubted no more', async () => {
   await open();
-  await drop(['clipped.csv', clipped()]);
-  await fitted('clipped.csv');
+  await measure('clipped.csv', clipped());
   for (const form of ['toml', 'rust', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
   await dragged('open_end', 20, 0);
   for (const form of ['toml', 'rust', 'json']) assert.doesNotMatch(await copied(form), /clipped: /, form);
@@ -421,15 +405,11 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
     const f = i < 200 || i > 560 ? 0 : i < 280 ? (i - 200) / 80 : i < 440 ? 1 : (560 - i) / 120;
     return [...(unit ? [(i * unit).toPrecision(6)] : []), value(f + 0.01 * Math.sin(i * i)).toFixed(4)].join(',');
   }).join('\n');
-  await page.fill('#lamp', 'pulse');
-  await page.fill('#pulse', '0.011');
-  await page.fill('#min_gap', '0.02');
-  await page.fill('#nominal', '1/125');
+  await fill({ lamp: 'pulse', pulse: '0.011', min_gap: '0.02', nominal: '1/125' });
   await page.blur('#nominal');
   const before = await address();
   // Times without a unit: seconds, until somebody says otherwise.
-  await drop(['bench.csv', made(0.01, (f) => 0.1 + 2 * f, 't,v\n')]);
-  await fitted('bench.csv');
+  await measure('bench.csv', made(0.01, (f) => 0.1 + 2 * f, 't,v\n'));
   assert.match(await page.text('#facts .doubt'), /does not say in which unit/);
   const [head, first] = await rows('#trace .preview');
   assert.deepEqual([head, first], [['line', 't time', 'v light'], ['2', '0.00000', '0.1000']]);
@@ -466,8 +446,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   await isRead();
   assert.ok(Math.abs(await number('open_end') - await number('open_start') - (80 / 100.5)) < 0.01);
   // Another column; and what is chosen before the last choice is read counts as well.
-  await drop(['down.csv', made(1e-5, (f) => 3 - 2 * f, 'time (s),dark,light\n').replace(/,(?=[\d.]+$)/gm, ',0.5,')]);
-  await fitted('down.csv');
+  await measure('down.csv', made(1e-5, (f) => 3 - 2 * f, 'time (s),dark,light\n').replace(/,(?=[\d.]+$)/gm, ',0.5,'));
   await hold();
   await choice('light', 'down');
   await choice('signal', '2');
@@ -481,8 +460,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
 
 test('a channel of the sync gives the delay, and its way; what is outside of a window does not count', async () => {
   await open('');
-  await drop(['two.csv', synced()]);
-  await fitted('two.csv');
+  await measure('two.csv', synced());
   await page.push('Choose its channel');
   assert.equal(await focused(), 'sync');
   await page.fill('#trace [name=sync]', '3');
@@ -572,8 +550,7 @@ test('a scene in TOML is as it was written, and what is given in it stays; a bro
   await page.says('bare.toml: these are trigger times as they were measured, and this page needs the curve');
   await drop(['mine.toml', text], ['bench.csv', trace()]);
   await page.says('opened alone: no file beside it was read');
-  await drop(['mine.csv', trace()]);
-  await fitted('mine.csv');
+  await measure('mine.csv', trace());
   const given = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'delay', 'set_up'].map((id) => page.value(`#${id}`));
   assert.deepEqual(await Promise.all(given), ['7', '2000000', '16', '0.25', '', 'emulated']);
   // What a fit wrote, and a hand has changed since, stays doubted: here, and where it is taken to.
@@ -666,8 +643,7 @@ test('axe finds nothing in any state of the page, in light and dark', async () =
       await page.waitForSelector('#trace .wrong');
     },
     doubted: async () => {
-      await drop(['clipped.csv', clipped()]);
-      await fitted('clipped.csv');
+      await measure('clipped.csv', clipped());
     },
     narrow: () => page.resize(390, 2800),
     table: async () => {
@@ -735,8 +711,7 @@ test('the server gives nothing but the page', async () => {
 
 test('a shutter whose flashes do not fit is shown, undone and redone; what would help is a button', async () => {
   await open();
-  await drop(['fast.csv', trace({ up: 0.4, open: 2.6, down: 0.5 })]);
-  await fitted('fast.csv');
+  await measure('fast.csv', trace({ up: 0.4, open: 2.6, down: 0.5 }));
   assert.match(await page.text('#speed'), /^1\/3\d\d s/, 'not the shutter before');
   assert.match(await problem(), /come 0\.\d+ ms .*apart, and 0\.4 ms .*is required/);
   assert.ok((await page.isDisabled('#copy')) && (await page.isDisabled('#save')) && !(await page.isSeen('#ticks')));
@@ -755,8 +730,7 @@ test('a shutter whose flashes do not fit is shown, undone and redone; what would
 
 test('a misfit takes the trace’s own times away, as the program does; a change by hand is the curve’s', async () => {
   await open('');
-  await drop(['bounce.csv', bouncing()]);
-  await fitted('bounce.csv');
+  await measure('bounce.csv', bouncing());
   const program = async (n) => {
     const [file, scene] = [join(scratch, 'bounce.csv'), join(scratch, `bounce${n}.toml`)];
     writeFileSync(file, bouncing());
@@ -794,8 +768,7 @@ test('a misfit takes the trace’s own times away, as the program does; a change
 test('a misfit without times of its own takes nothing away, until a person insists', async () => {
   await open();
   // Too little dark beside the pulse.
-  await drop(['dip.csv', trace({ from: 0.2, samples: 930, noise: 0.002, more: (t) => sine(t, 3, 4.4, -0.2) })]);
-  await fitted('dip.csv');
+  await measure('dip.csv', trace({ from: 0.2, samples: 930, noise: 0.002, more: (t) => sine(t, 3, 4.4, -0.2) }));
   const isDoubted = async () => {
     await written();
     assert.match(await page.text('#code'), /^There is nothing to copy yet: no curve explains this trace/);
@@ -899,10 +872,8 @@ test('several traces are a table alone, which prints, and a link that holds it',
 
 test('on paper the curve is whole, with all ticks, what is doubtful and what is wrong, and no buttons', async () => {
   await open(SOFT, { width: 1440, height: 900 });
-  await page.fill('#triggers', '18');
-  await page.fill('#name', 'mine');
-  await drop(['clipped.csv', clipped()]);
-  await fitted('clipped.csv');
+  await fill({ triggers: '18', name: 'mine' });
+  await measure('clipped.csv', clipped());
   await page.emulateMediaType('print');
   await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
   await page.resize(700, 900);
@@ -938,8 +909,7 @@ test('a part that cannot be drawn is told, and the address stays right', async (
 
 test('a clipped trace is doubted on the screen, in every form, link and row', async () => {
   await open();
-  await drop(['clipped.csv', clipped()]);
-  await fitted('clipped.csv');
+  await measure('clipped.csv', clipped());
   assert.match(await facts(), /exposure7\.\d+ ± [\d.]+ ms\s*clipped: \d+ % of the pulse’s samples[^]*testuntested/);
   for (const form of ['rust', 'c', 'toml', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
   JSON.parse(await copied('json'));

@@ -3,7 +3,7 @@
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, drawn, fitted, open, page, preset, setUp, written } from './harness.js';
+import { ROOT, drawn, fill, fitted, open, page, preset, setUp, written } from './harness.js';
 
 setUp();
 
@@ -11,10 +11,7 @@ test('the picture is made', async () => {
   await open('', { width: 1440, height: 1000 });
   await preset('measured');
   await fitted('leaf.csv');
-  const fields = { set_up: 'emulated', timer_hz: '25 MHz', triggers: '12', min_gap: '0.1' };
-  for (const [id, value] of Object.entries(fields)) {
-    await page.fill(`#${id}`, value);
-  }
+  await fill({ set_up: 'emulated', timer_hz: '25 MHz', triggers: '12', min_gap: '0.1' });
   await page.blur('#min_gap');
   await page.$eval('body', (it) => it.scrollIntoView());
   await page.mouse.move(2, 2);
