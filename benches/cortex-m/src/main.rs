@@ -7,8 +7,6 @@ mod links;
 mod measure;
 mod model;
 mod report;
-#[path = "../../../tests/support/mod.rs"]
-mod support;
 mod trace;
 
 type Error = Box<dyn std::error::Error + Send + Sync>;

@@ -1,26 +1,19 @@
 //! All that is measured on one core.
 
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
 use std::fs::{File, write};
 
-use measured::{CURVE_BYTES, CURVES, DEFAULT, Function, MOST, MOST_TRIGGERS, TICK_HZ, TRAPEZOID, TYPICAL};
-use measured::{trigger, uniform};
+use measured::Function::{self, InverseCdf, InverseCdf0, InverseCdf4, Schedule, SqrtFpu, Static, Tick};
+use measured::{CURVES, MOST, MOST_TRIGGERS, TICK_HZ, TRAPEZOID, TYPICAL, trigger, uniform};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
 use crate::firmware::Core;
-use crate::support::curves::Rng;
-use crate::trace::{Call, Run, run};
-
-use Function::{Construct, InverseCdf, Schedule, SqrtFpu, Static, Tick};
-
-/// A function with so many octaves; what has none counts as having [`DEFAULT`].
-pub type Of = (Function, usize);
+use crate::trace::{Call, Run};
 
 /// A series of calls on one curve, and what each took.
 struct Series {
-    of: Of,
+    of: Function,
     curve: usize,
     is_hard: bool,
     us: Vec<f32>,
@@ -30,30 +23,29 @@ struct Series {
 
 pub struct Measured {
     pub name: &'static str,
-    /// The bytes of `.data` and `.bss`.
-    pub statics: u64,
+    pub run: Run,
     series: Vec<Series>,
-    ran: std::collections::HashMap<u32, BTreeMap<u32, u32>>,
 }
 
 impl Measured {
     /// Of these functions on the first so many curves at uniform fractions, and of some on all at hard ones.
-    pub fn new(core: Core, functions: &[Of], curves: usize, at_hard: &[Of]) -> Result<Self> {
+    pub fn new(core: Core, functions: &[Function], curves: usize, at_hard: &[Function]) -> Result<Self> {
         eprintln!("measuring a {} ...", core.name);
         let elf = core.build("cost")?;
         let built = core.output(&elf)?;
-        if built.len() != CURVE_BYTES.iter().sum::<usize>() * CURVES.len() {
+        let bytes = [InverseCdf, InverseCdf0, InverseCdf4].map(Function::data_bytes);
+        if built.len() != bytes.iter().sum::<usize>() * CURVES.len() {
             return Err("the firmware's curves are not of the size that they have here".into());
         }
         let mut series = series(core, functions, curves, at_hard);
         let asked = series.iter().flat_map(|series| {
-            let head = [series.of.0 as u32, series.of.1 as u32, series.curve as u32, series.us.len() as u32];
+            let head = [series.of as u32, series.curve as u32, series.us.len() as u32];
             head.into_iter().chain(series.us.iter().map(|u| u.to_bits())).flat_map(u32::to_le_bytes)
         });
         let input = elf.with_extension("input");
         write(&input, built.into_iter().chain(asked).collect::<Vec<_>>())?;
-        let Run { calls, ran, output, statics } = run(core, &elf, File::open(&input)?)?;
-        let (mut calls, mut stacks) = (calls.into_iter(), output.chunks_exact(4));
+        let run = Run::new(core, &elf, File::open(&input)?)?;
+        let (mut calls, mut stacks) = (run.calls.iter().copied(), run.output.chunks_exact(4));
         for series in &mut series {
             series.calls = calls.by_ref().take(series.us.len()).collect();
             series.stack = u32::from_le_bytes(stacks.next().ok_or("the firmware ran fewer series")?.try_into()?);
@@ -61,23 +53,23 @@ impl Measured {
         if calls.next().is_some() || series.iter().any(|series| series.calls.len() != series.us.len()) {
             return Err("the firmware ran other calls than it was asked for".into());
         }
-        Ok(Self { name: core.name, statics, series, ran })
+        Ok(Self { name: core.name, run, series })
     }
 
-    fn all(&self, of: Of) -> impl Iterator<Item = &Series> {
+    fn all(&self, of: Function) -> impl Iterator<Item = &Series> {
         self.series.iter().filter(move |series| series.of == of)
     }
 
     /// The mean instructions, and on a Cortex-M4F cycles, at uniform fractions of a curve; nothing where they were not
     /// measured.
-    pub fn mean(&self, of: Of, curve: usize) -> Option<[f64; 2]> {
+    pub fn mean(&self, of: Function, curve: usize) -> Option<[f64; 2]> {
         let calls = &self.all(of).find(|series| series.curve == curve && !series.is_hard)?.calls;
         let mean = |of: fn(&Call) -> u32| calls.iter().map(|c| f64::from(of(c))).sum::<f64>() / calls.len() as f64;
         Some([mean(|call| call.instructions), mean(|call| call.cycles)])
     }
 
     /// The most cycles of a call at hard fractions of any curve, or of one that took no search.
-    pub fn worst(&self, of: Of, is_direct: bool) -> Option<u32> {
+    pub fn worst(&self, of: Function, is_direct: bool) -> Option<u32> {
         let calls = self.all(of).filter(|series| series.is_hard).flat_map(|series| {
             let direct = if is_direct { direct(series) } else { vec![true; series.us.len()] };
             series.calls.iter().zip(direct).filter(|(_, counts)| *counts).map(|(call, _)| call.cycles)
@@ -86,30 +78,29 @@ impl Measured {
     }
 
     /// The bytes of the functions that it ran, with their literals.
-    pub fn code(&self, of: Of) -> Option<u32> {
-        Some(self.ran[&self.all(of).next()?.calls[0].called].values().sum())
+    pub fn code(&self, of: Function) -> Option<u32> {
+        Some(self.run.ran[&self.all(of).next()?.calls[0].called].values().sum())
     }
 
     /// The most bytes of stack.
-    pub fn stack(&self, of: Of) -> Option<u32> {
+    pub fn stack(&self, of: Function) -> Option<u32> {
         self.all(of).map(|series| series.stack).max()
     }
 }
 
-fn series(core: Core, functions: &[Of], curves: usize, at_hard: &[Of]) -> Vec<Series> {
+fn series(core: Core, functions: &[Function], curves: usize, at_hard: &[Function]) -> Vec<Series> {
     let mut all = Vec::new();
-    for &of in functions.iter().filter(|(function, _)| *function != SqrtFpu || core.has_fpu()) {
-        let hard_curves = match of.0 {
+    for &of in functions.iter().filter(|function| **function != SqrtFpu || core.has_fpu()) {
+        let hard_curves = match of {
+            _ if !at_hard.contains(&of) || of.builds() => 0,
             Static => TYPICAL,
-            Construct => 0,
             _ => CURVES.len(),
         };
-        let hard_curves = if at_hard.contains(&of) { hard_curves } else { 0 };
-        for (is_hard, curves) in [(false, if of.0 == Construct { 1 } else { curves }), (true, hard_curves)] {
-            for curve in (0..curves).filter(|curve| !of.0.is_for_straight_ramps() || *curve == TRAPEZOID) {
-                let us = match of.0 {
-                    Construct | Schedule => vec![0.0],
-                    _ if is_hard => hard(curve, of.1),
+        for (is_hard, curves) in [(false, if of.builds() { 1 } else { curves }), (true, hard_curves)] {
+            for curve in (0..curves).filter(|curve| !of.is_for_straight_ramps() || *curve == TRAPEZOID) {
+                let us = match of {
+                    _ if of.builds() || of == Schedule => vec![0.0],
+                    _ if is_hard => hard(curve, of),
                     _ => (0..512).map(uniform).collect(),
                 };
                 all.push(Series { of, curve, is_hard, us, calls: Vec::new(), stack: 0 });
@@ -119,20 +110,17 @@ fn series(core: Core, functions: &[Of], curves: usize, at_hard: &[Of]) -> Vec<Se
     all
 }
 
-/// The hard fractions of a curve, and those of 20 000 for which the mass is evaluated most often.
-fn hard(curve: usize, octaves: usize) -> Vec<f32> {
-    let evaluations: Box<dyn Fn(f32) -> u32> = match octaves {
-        0 => evaluations::<0>(curve),
-        4 => evaluations::<4>(curve),
-        _ => evaluations::<8>(curve),
-    };
-    let mut rng = Rng::new(0, 0);
-    let tail = |rng: &mut Rng| (rng.unit() * 2f64.powf(-24.0 * rng.unit())) as f32;
-    let hard = CURVES[curve].hard.to_vec();
-    let mut us: Vec<_> = (0..20_000).map(|i| if i % 2 == 0 { tail(&mut rng) } else { 1.0 - tail(&mut rng) }).collect();
-    us.sort_by_cached_key(|u| Reverse(evaluations(*u)));
+/// The hard fractions of a curve, and those of 20 000 towards either end for which the mass is evaluated most often.
+fn hard(place: usize, of: Function) -> Vec<f32> {
+    let tails = (0..20_000).map(|i| uniform(i) * 2f32.powf(-24.0 * i as f32 / 20_000.0));
+    let mut us: Vec<_> = tails.enumerate().map(|(i, u)| if i % 2 == 0 { u } else { 1.0 - u }).collect();
+    match of {
+        InverseCdf0 => sort::<0>(&mut us, place),
+        InverseCdf4 => sort::<4>(&mut us, place),
+        _ => sort::<8>(&mut us, place),
+    }
     us.truncate(32);
-    us.extend(hard);
+    us.extend(CURVES[place].hard);
     us.truncate(MOST);
     us
 }
@@ -142,19 +130,20 @@ fn curve<const OCTAVES: usize>(curve: usize) -> ShutterCurve<OCTAVES> {
     ShutterCurve::with_octaves(opening, closing).expect("a good curve")
 }
 
-fn evaluations<const OCTAVES: usize>(place: usize) -> Box<dyn Fn(f32) -> u32> {
+/// By how often the mass is evaluated for each, falling.
+fn sort<const OCTAVES: usize>(us: &mut [f32], place: usize) {
     let curve = curve::<OCTAVES>(place);
-    Box::new(move |u| curve.evaluations(u).unwrap_or(0))
+    us.sort_by_cached_key(|u| Reverse(curve.evaluations(*u)));
 }
 
 /// Which answers of a series came without a search, as the host tells, whose answers have the same bits; none of other
 /// functions than the inverse and a tick.
 fn direct(series: &Series) -> Vec<bool> {
-    let curve = curve::<DEFAULT>(series.curve);
+    let curve = curve::<8>(series.curve);
     let frame = curve.at(TICK_HZ).and_then(|timed| timed.min_gap(0).trigger_ticks(MOST_TRIGGERS)).expect("a good rate");
     let direct = series.us.iter().map(|u| match series.of {
-        (InverseCdf | Static, DEFAULT) => curve.evaluations(*u).is_none(),
-        (Tick, DEFAULT) => frame.is_direct(trigger(*u)),
+        InverseCdf | Static => curve.evaluations(*u).is_none(),
+        Tick => frame.is_direct(trigger(*u)),
         _ => false,
     });
     direct.collect()
@@ -163,7 +152,7 @@ fn direct(series: &Series) -> Vec<bool> {
 /// Of 100 answers on typical curves, those that take a search.
 pub fn searched() -> f64 {
     let of = |place| {
-        let curve = curve::<DEFAULT>(place);
+        let curve = curve::<8>(place);
         (0..512).filter(|i| curve.evaluations(uniform(*i)).is_some()).count()
     };
     (0..TYPICAL).map(of).sum::<usize>() as f64 / (5.12 * TYPICAL as f64)

@@ -1,42 +1,42 @@
 //! The tables of `docs/internals/cost.md`.
 
-use measured::baseline::{self, InverseTable, StraightRamps};
-use measured::{ALL_RAMP, CURVE_BYTES, DEFAULT, NAMES, OCTAVES, SOFT, TRAPEZOID, TRIGGERS};
+use measured::{ALL_RAMP, Function, NAMES, SOFT, TRAPEZOID, TRIGGERS};
 
 use crate::Result;
 use crate::firmware::{IMAFC, IMC, M0, M4F, M33, folder, made_with};
-use crate::measure::{Measured, Of};
+use crate::measure::Measured;
 
 use measured::Function::{
-    Cdf, Construct, InverseCdf, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm, Static, Table, Tick,
+    Cdf, Construct, Construct0, InverseCdf, InverseCdf0, InverseCdf4, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm,
+    Static, Table, Tick,
 };
 
 /// The calls as the reader knows them; the last are the baselines.
-const CALLS: [(&str, Of); 12] = [
-    ("`inverse_cdf`", (InverseCdf, DEFAULT)),
-    ("`inverse_cdf` of a `static`", (Static, DEFAULT)),
-    ("`inverse_cdf`, `OCTAVES = 0`", (InverseCdf, 0)),
-    ("`inverse_cdf`, `OCTAVES = 4`", (InverseCdf, 4)),
-    ("`cdf`", (Cdf, DEFAULT)),
-    ("`openness`", (Openness, DEFAULT)),
-    ("a tick", (Tick, DEFAULT)),
-    ("a schedule", (Schedule, DEFAULT)),
-    ("Newton, nearer end", (NearerEnd, DEFAULT)),
-    ("linear table of 256", (Table, DEFAULT)),
-    ("`libm::sqrtf`", (SqrtLibm, DEFAULT)),
-    ("the FPU's square root", (SqrtFpu, DEFAULT)),
+const CALLS: [(&str, Function); 12] = [
+    ("`inverse_cdf`", InverseCdf),
+    ("`inverse_cdf` of a `static`", Static),
+    ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf0),
+    ("`inverse_cdf`, `OCTAVES = 4`", InverseCdf4),
+    ("`cdf`", Cdf),
+    ("`openness`", Openness),
+    ("a tick", Tick),
+    ("a schedule", Schedule),
+    ("Newton, nearer end", NearerEnd),
+    ("linear table of 256", Table),
+    ("`libm::sqrtf`", SqrtLibm),
+    ("the FPU's square root", SqrtFpu),
 ];
 
-const BUILDING: [(&str, Of); 2] =
-    [("building, `OCTAVES = 0`", (Construct, 0)), ("building, `OCTAVES = 8`", (Construct, DEFAULT))];
+const BUILDING: [(&str, Function); 2] =
+    [("building, `OCTAVES = 0`", Construct0), ("building, `OCTAVES = 8`", Construct)];
 
 pub fn write() -> Result {
-    let functions: Vec<Of> = CALLS.into_iter().chain(BUILDING).map(|(_, of)| of).collect();
+    let functions: Vec<Function> = CALLS.into_iter().chain(BUILDING).map(|(_, of)| of).collect();
     let m4f = Measured::new(M4F, &functions, TRAPEZOID + 1, &functions)?;
     // On hard curves some triggers of a schedule are searched for: else that code would not run.
     let others = [M33, M0, IMAFC, IMC].map(|core| {
-        let told: Vec<Of> = functions.iter().filter(|(_, octaves)| *octaves != 4).copied().collect();
-        Measured::new(core, &told, TRAPEZOID + 1, &[(Schedule, DEFAULT)])
+        let told: Vec<Function> = functions.iter().filter(|function| **function != InverseCdf4).copied().collect();
+        Measured::new(core, &told, TRAPEZOID + 1, &[Schedule])
     });
     let others = others.into_iter().collect::<Result<Vec<_>>>()?;
     let page = format!(
@@ -78,21 +78,11 @@ worst call here.
 ",
         cycles = cycles(&m4f),
         instructions = instructions(&others.iter().collect::<Vec<_>>()),
-        statics = m4f.statics,
+        statics = m4f.run.statics,
         bytes = bytes(&[&[&m4f], &others.iter().collect::<Vec<_>>()[..]].concat()),
         made_with = made_with()?,
     );
     Ok(std::fs::write(folder().join("../../docs/internals/cost.md"), page)?)
-}
-
-/// The data of a call's curve.
-fn data_bytes((function, octaves): Of) -> Option<usize> {
-    Some(match function {
-        NearerEnd => size_of::<baseline::NearerEnd>(),
-        Table => size_of::<InverseTable<256>>(),
-        SqrtLibm | SqrtFpu => size_of::<StraightRamps>(),
-        _ => CURVE_BYTES[OCTAVES.iter().position(|count| *count == octaves)?],
-    })
 }
 
 /// A table of figures by rows, its columns' names between bars.
@@ -116,7 +106,7 @@ fn cycles(m4f: &Measured) -> String {
     let rows = CALLS.map(|(name, of)| {
         let means = (0..=TRAPEZOID).map(|curve| m4f.mean(of, curve).map(|[_, cycles]| format!("{cycles:.0}")));
         let worst = [false, true].map(|is_direct| m4f.worst(of, is_direct).map(|cycles| cycles.to_string()));
-        let bytes = [m4f.code(of).map(|bytes| bytes.to_string()), data_bytes(of).map(|bytes| bytes.to_string())];
+        let bytes = [m4f.code(of).map(|bytes| bytes.to_string()), Some(of.data_bytes().to_string())];
         (name.to_owned(), means.chain(worst).chain(bytes).collect())
     });
     table(&format!("call | {} | worst | direct | code, bytes | data, bytes", NAMES.join(" | ")), rows)
@@ -126,8 +116,8 @@ fn cycles(m4f: &Measured) -> String {
 fn by_core(
     head: &str,
     cores: &[&Measured],
-    calls: &[(&str, Of)],
-    cell: impl Fn(&Measured, Of) -> Option<String>,
+    calls: &[(&str, Function)],
+    cell: impl Fn(&Measured, Function) -> Option<String>,
 ) -> String {
     let names: Vec<_> = cores.iter().map(|core| core.name.replace("Cortex-", "")).collect();
     let rows = calls.iter().map(|(name, of)| (name.to_string(), cores.iter().map(|core| cell(core, *of)).collect()));
@@ -135,9 +125,9 @@ fn by_core(
 }
 
 fn instructions(cores: &[&Measured]) -> String {
-    let calls: Vec<_> = CALLS.into_iter().filter(|(_, (_, octaves))| *octaves != 4).collect();
+    let calls: Vec<_> = CALLS.into_iter().filter(|(_, of)| *of != InverseCdf4).collect();
     by_core("soft; all ramp", cores, &calls, |core, of| {
-        let curves = if of.0.is_for_straight_ramps() { &[TRAPEZOID][..] } else { &[SOFT, ALL_RAMP] };
+        let curves = if of.is_for_straight_ramps() { &[TRAPEZOID][..] } else { &[SOFT, ALL_RAMP] };
         let means = curves.iter().map(|curve| Some(grouped(core.mean(of, *curve)?[0])));
         Some(means.collect::<Option<Vec<_>>>()?.join("; "))
     })
@@ -145,7 +135,7 @@ fn instructions(cores: &[&Measured]) -> String {
 
 fn bytes(cores: &[&Measured]) -> String {
     let building = by_core("instructions", cores, &BUILDING, |core, of| Some(grouped(core.mean(of, SOFT)?[0])));
-    let calls = CALLS.into_iter().filter(|(_, of)| matches!(of.0, Static | Cdf | Openness | Tick | Schedule));
+    let calls = CALLS.into_iter().filter(|(_, of)| matches!(of, Static | Cdf | Openness | Tick | Schedule));
     let rows: Vec<_> = BUILDING.into_iter().chain(calls).collect();
     let bytes = by_core("bytes of code; stack", cores, &rows, |core, of| {
         Some(format!("{}; {}", grouped(core.code(of)?.into()), grouped(core.stack(of)?.into())))

@@ -2,7 +2,7 @@
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Area, Axis, BLUE, FAINT, GREY, Graph, INK, SCALE, VERMILION, axes, pen, picture};
+use chart::{Area, Axis, BLUE, GREY, INK, SCALE, VERMILION, axes, pen, picture};
 
 use crate::Result;
 use crate::methods::METHODS;
@@ -35,13 +35,12 @@ pub fn frontier(measured: &Measured) -> Result<String> {
     picture((1240, 520), title, |page| {
         let areas = page.split_evenly((1, 2));
         panel(&areas[0], "nanoseconds a sample on the host, soft curve", &measured.times, measured)?;
-        let cycles = "mean cycles a sample on a Cortex-M4F (model), soft curve";
-        // Where there is room.
-        legend(&mut panel(&areas[1], cycles, &measured.cycles, measured)?)
+        panel(&areas[1], "mean cycles a sample on a Cortex-M4F (model), soft curve", &measured.cycles, measured)?;
+        legend(&areas[1])
     })
 }
 
-fn panel<'a, 'b>(area: &'a Area<'b>, name: &str, costs: &[f64], measured: &Measured) -> Result<Graph<'a, 'b>> {
+fn panel(area: &Area, name: &str, costs: &[f64], measured: &Measured) -> Result {
     let logs = costs.iter().map(|cost| cost.log2());
     let low = logs.clone().fold(f64::INFINITY, f64::min);
     let high = logs.fold(f64::NEG_INFINITY, f64::max);
@@ -63,30 +62,25 @@ fn panel<'a, 'b>(area: &'a Area<'b>, name: &str, costs: &[f64], measured: &Measu
         let name = Text::new(name, (dx * SCALE, dy * SCALE), text);
         graph.draw_series([EmptyElement::at(most) + name])?;
     }
-    Ok(graph)
+    Ok(())
 }
 
-/// Names colours and signs, by series without points.
-fn legend<'a, 'b: 'a>(graph: &mut Graph<'a, 'b>) -> Result {
-    for (name, style) in [
+/// Names colours and signs, where there is room.
+fn legend(area: &Area) -> Result {
+    for (row, (name, style)) in [
         ("this crate", BLUE.filled()),
         ("others, for every curve", VERMILION.filled()),
         ("square roots, on a trapezoid", GREY.filled()),
         ("greatest error", INK.filled()),
         ("mean error", pen(INK, 2.0)),
-    ] {
-        let none = std::iter::empty::<Circle<(f64, f64), i32>>();
-        let series = graph.draw_series(none)?.label(name);
-        series.legend(move |(x, y)| Circle::new((x + 9 * SCALE, y), 9 * SCALE / 2, style));
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (x, y) = (380 * SCALE, (170 + 22 * row as i32) * SCALE);
+        area.draw(&Circle::new((x, y), 9 * SCALE / 2, style))?;
+        let text = chart::text(13 * SCALE, HPos::Left, VPos::Center);
+        area.draw(&Text::new(name, (x + 14 * SCALE, y), text))?;
     }
-    graph
-        .configure_series_labels()
-        .position(SeriesLabelPosition::MiddleRight)
-        .background_style(WHITE.mix(0.85))
-        .border_style(FAINT)
-        .legend_area_size(30 * SCALE)
-        .margin(8 * SCALE)
-        .label_font(chart::font(13 * SCALE))
-        .draw()?;
     Ok(())
 }

@@ -6,7 +6,7 @@ use core::hash::{Hash, Hasher};
 use shutter_curve::{CubicBezier, Hz, Pulse, ShutterCurve};
 
 use crate::baseline::Ramp;
-use crate::{CURVES, DEFAULT, uniform};
+use crate::{CURVES, uniform};
 
 /// FNV-1a, a byte at a time, of numbers as each machine holds them: the low byte first.
 struct Fnv(u64);
@@ -105,7 +105,7 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
             answers(hash, &curve, (0..16).map(uniform));
         }
     }
-    if OCTAVES == DEFAULT {
+    if OCTAVES == 8 {
         let densities = [0.5, 1e-7, 2.0].map(|by| ShutterCurve::density(opening.scaled(by)));
         let forms = [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)];
         for curve in forms.into_iter().chain(densities).chain([ShutterCurve::new(opening, lines.1)]) {

@@ -49,7 +49,7 @@ pub fn uniform(i: u32) -> f32 {
 
 macro_rules! functions {
     ($($name:ident)*) => {
-        /// A function whose calls are counted.
+        /// A function whose calls are counted, of curves with 8 octaves where its name has no other number.
         ///
         /// `Static` is the inverse of a typical curve in a `static`, which the compiler sees, as firmware has it; the
         /// others call by a reference. `Sqrt...` are for straight ramps.
@@ -58,11 +58,30 @@ macro_rules! functions {
         pub const FUNCTIONS: &[Function] = &[$(Function::$name),*];
     };
 }
-functions! { InverseCdf Static Cdf Openness Tick Schedule Construct NearerEnd Table SqrtLibm SqrtFpu }
+functions! {
+    InverseCdf InverseCdf0 InverseCdf4 Static Cdf Openness Tick Schedule Construct Construct0 NearerEnd Table SqrtLibm
+    SqrtFpu
+}
 
 impl Function {
     pub fn is_for_straight_ramps(self) -> bool {
         matches!(self, Self::SqrtLibm | Self::SqrtFpu)
+    }
+
+    pub fn builds(self) -> bool {
+        matches!(self, Self::Construct | Self::Construct0)
+    }
+
+    /// The bytes of a curve, or of what stands for it.
+    pub fn data_bytes(self) -> usize {
+        match self {
+            Self::InverseCdf0 | Self::Construct0 => size_of::<ShutterCurve<0>>(),
+            Self::InverseCdf4 => size_of::<ShutterCurve<4>>(),
+            Self::NearerEnd => size_of::<baseline::NearerEnd>(),
+            Self::Table => size_of::<baseline::InverseTable<256>>(),
+            Self::SqrtLibm | Self::SqrtFpu => size_of::<baseline::StraightRamps>(),
+            _ => size_of::<ShutterCurve>(),
+        }
     }
 }
 
@@ -79,11 +98,3 @@ pub fn trigger(u: f32) -> u32 {
 
 /// The most fractions of a series.
 pub const MOST: usize = 1024;
-
-/// The numbers of octaves, and the crate's default.
-pub const OCTAVES: [usize; 3] = [0, 4, 8];
-pub const DEFAULT: usize = 8;
-
-/// The bytes of a curve with each of them.
-pub const CURVE_BYTES: [usize; 3] =
-    [size_of::<ShutterCurve<0>>(), size_of::<ShutterCurve<4>>(), size_of::<ShutterCurve<8>>()];

@@ -3,7 +3,7 @@
 //!
 //! Building all curves takes a thousand times the instructions of what is counted, too many to trace. So the firmware
 //! runs twice: where its input is empty it builds them and prints their bytes. These begin the second run's input. Each
-//! series follows: its function, its octaves, its curve, and how many fractions it has; then these.
+//! series follows: its function, its curve, and how many fractions it has; then these.
 #![no_std]
 #![no_main]
 #![feature(core_float_math)]
@@ -124,7 +124,9 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
     let (data, curve) = (&CURVES[i], black_box(&curves[i]));
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
     match function {
-        Function::InverseCdf => each(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
+        Function::InverseCdf | Function::InverseCdf0 | Function::InverseCdf4 => {
+            each(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u))
+        }
         Function::Static => each(us, EACH_STATIC[i]),
         Function::Cdf => each(us, |u| the_call(ShutterCurve::cdf, curve, start + length * u)),
         Function::Openness => each(us, |u| the_call(ShutterCurve::openness, curve, start + length * u)),
@@ -148,7 +150,7 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
             };
             each(us, |_| (the_call(plan, curve, &mut ticks), black_box(ticks)))
         }
-        Function::Construct => {
+        Function::Construct | Function::Construct0 => {
             let build = |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
             let (opening, closing) = black_box(data.ramps());
             each(us, |_| the_call(build, &opening, &closing).is_ok())
@@ -174,13 +176,13 @@ fn run() {
     let mut read = |count: usize| {
         words[..count].iter_mut().all(|word| input.read(word) == word.len()).then(|| words.map(u32::from_le_bytes))
     };
-    while let Some([function, octaves, curve, count, ..]) = read(4) {
+    while let Some([function, curve, count, ..]) = read(3) {
         let Some(us) = read(count as usize) else { break };
         let (function, curve) = (FUNCTIONS[function as usize], curve as usize);
         let us = &us.map(f32::from_bits)[..count as usize];
-        match octaves {
-            0 => run_series(function, curve, &with_0, us),
-            4 => run_series(function, curve, &with_4, us),
+        match function {
+            Function::InverseCdf0 | Function::Construct0 => run_series(function, curve, &with_0, us),
+            Function::InverseCdf4 => run_series(function, curve, &with_4, us),
             _ => run_series(function, curve, &with_8, us),
         }
     }
