@@ -12,7 +12,7 @@ use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 use crate::speeds::columns;
 use shutter_plan::facts::Facts;
 use shutter_plan::lamp::{Lamp, SetUp};
-use shutter_plan::plan::{Curve, Plan, Row, Trigger};
+use shutter_plan::plan::{Plan, Row, Trigger};
 
 /// With more triggers than this, a full line at each would hide the curve.
 const MOST_LINES: usize = 36;
@@ -32,21 +32,8 @@ pub fn text(name: &str, plan: &Plan, columns: u16) -> String {
     let facts: String = lines.iter().map(|(name, fact)| format!("{name:11}  {fact}\n")).collect();
     // The labels beside a drawing take 8.
     let cells = usize::from(columns.max(32) - 8);
-    let drawn = match &plan.curve {
-        Some(curve) => drawings(plan, curve, cells),
-        None => line_of_time(plan, cells),
-    };
-    format!("{facts}\n{drawn}\n{}", table(plan))
-}
-
-fn drawings(plan: &Plan, Curve { shutter: curve, .. }: &Curve, cells: usize) -> String {
-    let time = axis(plan);
-    let openness = drawing(plan, curve, cells, |t| curve.openness(t));
-    let cdf = drawing(plan, curve, cells, |t| curve.cdf(t));
-    format!(
-        "openness over {time}, a line at each trigger\n{openness}\n\
-         fraction of the exposure collected over {time}\n{cdf}"
-    )
+    let drawn = plan.curve.as_ref().map_or(String::new(), |curve| drawing(plan, &curve.shutter, cells));
+    format!("{facts}\n{drawn}{}", table(plan))
 }
 
 /// What an axis of time is called, and what it counts from.
@@ -55,22 +42,8 @@ pub fn axis(plan: &Plan) -> String {
     format!("time{from} ({})", plan.unit.name())
 }
 
-/// The triggers on a line of time.
-fn line_of_time(times: &Plan, cells: usize) -> String {
-    let unit = times.unit;
-    let mut line = vec!['─'; cells];
-    for trigger in &times.triggers {
-        let part = (trigger.time - times.start) / times.length;
-        line[(part * (cells - 1) as f64).round() as usize] = '┼';
-    }
-    let ends = [times.start, times.start + times.length];
-    let [first, last] = ends.map(|time| short(unit.of(time - times.origin()), 5));
-    let (name, line, width) = (axis(times), String::from_iter(line), cells.saturating_sub(first.len()));
-    format!("triggers over {name}\n{line}\n{first}{last:>width$}\n")
-}
-
-/// The function `f` of time with a line up to it at each trigger.
-fn drawing(plan: &Plan, curve: &ShutterCurve, cells: usize, f: impl Fn(f32) -> f32) -> String {
+/// The openness over time with a line up to it at each trigger.
+fn drawing(plan: &Plan, curve: &ShutterCurve, cells: usize) -> String {
     let (unit, zero) = (plan.unit, plan.origin());
     // Two dots a character.
     let dots = 2 * cells as u32 - 1;
@@ -80,12 +53,12 @@ fn drawing(plan: &Plan, curve: &ShutterCurve, cells: usize, f: impl Fn(f32) -> f
     let times = (0..=dots).map(|i| start + (end - start) * (i as f32 / dots as f32));
     // From just before to just after, so that a jump at an end is drawn.
     let times = once(start.next_down()).chain(times).chain(once(end.next_up()));
-    let line: Vec<_> = times.map(|t| (x(t), f(t))).collect();
+    let line: Vec<_> = times.map(|t| (x(t), curve.openness(t))).collect();
     let graph = Shape::Lines(&line);
     let tallest = if plan.triggers.len() > MOST_LINES { 0.1 } else { 1.0 };
     let stem = |trigger: &Trigger| {
         let t = trigger.time as f32;
-        [(x(t), 0.0), (x(t), f(t).min(tallest))]
+        [(x(t), 0.0), (x(t), curve.openness(t).min(tallest))]
     };
     let stems: Vec<_> = plan.triggers.iter().map(stem).collect();
     let stems: Vec<_> = stems.iter().map(|stem| Shape::Lines(stem)).collect();
@@ -101,7 +74,7 @@ fn drawing(plan: &Plan, curve: &ShutterCurve, cells: usize, f: impl Fn(f32) -> f
     }
     chart.axis();
     chart.figures();
-    chart.to_string()
+    format!("openness over {}, a line at each trigger\n{chart}\n", axis(plan))
 }
 
 /// A row for each trigger, under the columns that a scene has.
