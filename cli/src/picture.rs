@@ -9,18 +9,17 @@ use std::error::Error;
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, pen, picture};
+use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, pen};
 use shutter_fit::unit::{count, short};
 
 use crate::report::axis;
-use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, draw_marks, graph, is_near, knob, lit, time_range};
+use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, draw_marks, graph, is_near, knob, lit, page, time_range};
 pub use set_ups::set_ups;
 use shutter_plan::lamp::{FullyOpen, Lamp};
 use shutter_plan::plan::{Curve, Plan};
 pub use trace::trace;
 
 const SIZE: (i32, i32) = (900, 704);
-const HEADING: i32 = 88;
 const OPENNESS: i32 = 330;
 
 /// The height of the ticks that stand for so many.
@@ -30,20 +29,9 @@ const TICK: f64 = 0.04;
 pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let Some(curve) = &plan.curve else { return times::svg(name, plan) };
     let title = format!("Openness and exposure of the shutter {name} over time, with its triggers");
-    picture(SIZE, &title, |page| {
-        let (heading, rest) = page.split_vertically(HEADING * SCALE);
-        let (upper, lower) = rest.split_vertically(OPENNESS * SCALE);
-        write_heading(&heading, name, plan, curve)?;
-        draw_openness(&upper, plan, curve)?;
-        draw_cdf(&lower, plan, curve)
-    })
-}
-
-fn write_heading(area: &Area, name: &str, plan: &Plan, curve: &Curve) -> Drawn {
-    let unit = plan.unit;
     let facts = format!(
         "exposure {}, efficiency {} %, {}",
-        unit.show(curve.shutter.exposure()),
+        plan.unit.show(curve.shutter.exposure()),
         short(100.0 * f64::from(curve.shutter.efficiency()), 4),
         match plan.triggers.len() {
             n if plan.lamp == Lamp::FullyOpen => {
@@ -53,12 +41,6 @@ fn write_heading(area: &Area, name: &str, plan: &Plan, curve: &Curve) -> Drawn {
             n => format!("{n} triggers, each in the middle of an equal share of the exposure"),
         },
     );
-    drawing::write_heading(area, SIZE.0, name, &facts)?;
-    legend(area, plan, curve)
-}
-
-/// What the signs of the upper graph mean.
-fn legend(area: &Area, plan: &Plan, curve: &Curve) -> Drawn {
     let mut keys = vec![("openness", Key::Line), ("trigger", Key::Dot)];
     match plan.lamp {
         Lamp::Triggered | Lamp::FullyOpen => (),
@@ -68,7 +50,11 @@ fn legend(area: &Area, plan: &Plan, curve: &Curve) -> Drawn {
     if curve.shape.inner.is_some() {
         keys.push(("control point and its handle", Key::Handle));
     }
-    drawing::legend(area, SIZE.0, &keys)
+    page(SIZE, &title, [name, &facts], &keys, |page| {
+        let (upper, lower) = page.split_vertically(OPENNESS * SCALE);
+        draw_openness(&upper, plan, curve)?;
+        draw_cdf(&lower, plan, curve)
+    })
 }
 
 fn draw_openness(area: &Area, plan: &Plan, Curve { shape, shutter: curve, .. }: &Curve) -> Drawn {

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, INK, LIGHT, SCALE, VERMILION, axes, pen};
+use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, INK, LIGHT, SCALE, VERMILION, axes, pen, picture};
 use shutter_curve::ShutterCurve;
 use shutter_fit::unit::{decimals, trimmed};
 
@@ -89,7 +89,7 @@ pub(super) enum Key {
 }
 
 /// What the signs mean, below the heading on a page of this width.
-pub(super) fn legend(area: &Area, page: i32, keys: &[(&str, Key)]) -> Drawn {
+fn legend(area: &Area, page: i32, keys: &[(&str, Key)]) -> Drawn {
     // By so much a letter is wide, at most.
     let width = |name: &str| 34 + 8 * name.len() as i32;
     let all: i32 = keys.iter().map(|(name, _)| width(name)).sum();
@@ -130,12 +130,22 @@ pub fn draw_marks(
     Ok(())
 }
 
-/// The name of what is drawn, and its facts, on a page of this width.
-pub fn write_heading(area: &Area, width: i32, name: &str, facts: &str) -> Drawn {
-    let middle = width * SCALE / 2;
-    for (text, size, y) in [(name, 19, 22), (facts, 14, 48)] {
-        let centred = chart::text(size * SCALE, HPos::Center, VPos::Center);
-        area.draw_text(text, &centred, (middle, y * SCALE))?;
-    }
-    Ok(())
+/// An SVG of this size with what `draw` draws on it below a heading: the name of what is drawn, its facts, and signs.
+pub(super) fn page(
+    size: (i32, i32),
+    title: &str,
+    [name, facts]: [&str; 2],
+    keys: &[(&str, Key)],
+    draw: impl FnOnce(&Area) -> Drawn,
+) -> Result<String, Box<dyn Error>> {
+    picture(size, title, |page| {
+        let (heading, rest) = page.split_vertically(if keys.is_empty() { 70 } else { 88 } * SCALE);
+        let middle = size.0 * SCALE / 2;
+        for (text, size, y) in [(name, 19, 22), (facts, 14, 48)] {
+            let centred = chart::text(size * SCALE, HPos::Center, VPos::Center);
+            heading.draw_text(text, &centred, (middle, y * SCALE))?;
+        }
+        legend(&heading, size.0, keys)?;
+        draw(&rest)
+    })
 }

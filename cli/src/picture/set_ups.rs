@@ -5,17 +5,16 @@ use std::error::Error;
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Area, Axis, BLUE, Drawn, SCALE, VERMILION, axes, pen, picture};
+use chart::{Area, Axis, BLUE, Drawn, SCALE, VERMILION, axes, pen};
 use shutter_curve::ShutterCurve;
 use shutter_fit::unit::short;
 
-use super::drawing::{below, draw_curve, graph, lit, steps, write_heading};
+use super::drawing::{below, draw_curve, graph, lit, page, steps};
 use crate::report::axis;
 use shutter_plan::lamp::Lamp;
 use shutter_plan::plan::Plan;
 
 const SIZE: (i32, i32) = (1000, 760);
-const HEADING: i32 = 70;
 const TITLE: i32 = 34;
 const LEFT: i32 = 650;
 /// With more pulses than this, their doses would not be legible below their bars.
@@ -44,11 +43,10 @@ pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
         ("The shutter is in the light's path: these pulses get equal doses through it", true, &even),
     ];
     let title = format!("The doses of {n} pulses with the shutter {name}, emulated and in the light's path");
-    picture(SIZE, &title, |page| {
-        let (heading, rest) = page.split_vertically(HEADING * SCALE);
-        let facts = "outlined: the lamp is on; filled: its light that arrives; dashed: the curve that is meant";
-        write_heading(&heading, SIZE.0, &format!("{name}: the light of {n} pulses in the two set-ups"), facts)?;
-        for (area, row) in rest.split_evenly((rows.len(), 1)).iter().zip(rows) {
+    let name = format!("{name}: the light of {n} pulses in the two set-ups");
+    let facts = "outlined: the lamp is on; filled: its light that arrives; dashed: the curve that is meant";
+    page(SIZE, &title, [&name, facts], &[], |page| {
+        for (area, row) in page.split_evenly((rows.len(), 1)).iter().zip(rows) {
             let (title, rest) = area.split_vertically(TITLE * SCALE);
             let label = chart::text(15 * SCALE, HPos::Left, VPos::Center);
             title.draw_text(row.0, &label, (24 * SCALE, 20 * SCALE))?;

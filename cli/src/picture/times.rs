@@ -4,30 +4,26 @@ use std::error::Error;
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Axis, INK, SCALE, axes, pen, picture};
+use chart::{Axis, INK, SCALE, axes, pen};
 use shutter_fit::unit::{count, decimals, trimmed};
 
-use super::drawing::{draw_marks, is_near, time_range, write_heading};
+use super::drawing::{draw_marks, is_near, page, time_range};
 use crate::report::axis;
 use shutter_plan::plan::Plan;
 
 const SIZE: (i32, i32) = (900, 240);
-const HEADING: i32 = 70;
 
 /// The triggers of the scene `name`.
 pub fn svg(name: &str, times: &Plan) -> Result<String, Box<dyn Error>> {
     let (unit, zero) = (times.unit, times.origin());
     let [start, end] = [times.start, times.start + times.length].map(|time| unit.of(time - zero));
     let title = format!("The triggers of the shutter {name} over time, as measured");
-    picture(SIZE, &title, |page| {
-        let (heading, rest) = page.split_vertically(HEADING * SCALE);
-        let triggers = count(times.triggers.len() as u64, "trigger");
-        let facts = format!("no curve: {triggers} as measured");
-        write_heading(&heading, SIZE.0, name, &facts)?;
+    let facts = format!("no curve: {} as measured", count(times.triggers.len() as u64, "trigger"));
+    page(SIZE, &title, [name, &facts], &[], |page| {
         let (time, places) = (axis(times), decimals(end - start, 3));
         let across = Axis { range: time_range(times), name: Some(&time), labels: 11, label: &|t| trimmed(*t, places) };
         let up = Axis { range: 0.0..1.2, name: None, labels: 6, label: &|_| String::new() };
-        let mut graph = axes(&rest, across, up, 20)?;
+        let mut graph = axes(page, across, up, 20)?;
         let marks = times.triggers.iter().map(|trigger| (unit.of(trigger.time - zero), 1.0));
         draw_marks(&mut graph, marks, |(t, y)| vec![(t, 0.0), (t, y)])?;
         let edge = is_near(times).then_some((0.0, "sync"));

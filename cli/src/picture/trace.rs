@@ -4,15 +4,14 @@ use std::error::Error;
 use std::ops::Range;
 
 use chart::plotters::prelude::*;
-use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, SCALE, axes, pen, picture};
+use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, SCALE, axes, pen};
 use shutter_fit::trace::Trace;
 use shutter_fit::unit::{decimals, short, trimmed};
 use shutter_fit::{Fit, From};
 
-use super::drawing::{Key, draw_marks, legend};
+use super::drawing::{Key, draw_marks, page};
 
 const SIZE: (i32, i32) = (900, 640);
-const HEADING: i32 = 88;
 const SIGNAL: i32 = 340;
 /// More samples than this are drawn as the least and the greatest of neighbours.
 const MOST: usize = 3000;
@@ -22,30 +21,23 @@ const POINTS: usize = 1500;
 /// The fit of the trace `name`, as an SVG.
 pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
     let title = format!("The trace {name} and the curve fitted to it, with its triggers; the residual");
-    picture(SIZE, &title, |page| {
-        let (heading, rest) = page.split_vertically(HEADING * SCALE);
-        let (upper, lower) = rest.split_vertically(SIGNAL * SCALE);
-        write_heading(&heading, name, fit)?;
-        draw_signal(&upper, fit)?;
-        draw_residual(&lower, fit)
-    })
-}
-
-fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
-    let unit = fit.unit();
     let facts = format!(
         "{}: exposure {}{}, rms {} % of the light",
         fit.chosen.title(),
-        unit.show(fit.exposure.value),
+        fit.unit().show(fit.exposure.value),
         if fit.from == From::Trace { " by the trace" } else { "" },
         short(100.0 * fit.best().rms, 3),
     );
-    super::drawing::write_heading(area, SIZE.0, name, &facts)?;
     let trigger = match fit.from {
         From::Model => "trigger",
         From::Trace => "trigger by the trace",
     };
-    legend(area, SIZE.0, &[("trace", Key::Trace), ("fitted curve", Key::Line), (trigger, Key::Dot)])
+    let keys = [("trace", Key::Trace), ("fitted curve", Key::Line), (trigger, Key::Dot)];
+    page(SIZE, &title, [name, &facts], &keys, |page| {
+        let (upper, lower) = page.split_vertically(SIGNAL * SCALE);
+        draw_signal(&upper, fit)?;
+        draw_residual(&lower, fit)
+    })
 }
 
 fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
