@@ -11,7 +11,6 @@ mod output;
 mod plan;
 mod quantity;
 mod read;
-mod sensors;
 mod settings;
 
 use std::ffi::OsString;

@@ -87,25 +87,9 @@ pub struct Ticks {
     pub(crate) unit: Unit,
 }
 
-impl Ticks {
-    /// How long they last.
-    pub fn seconds(self) -> f64 {
-        self.count as f64 / f64::from(self.hz)
-    }
-
-    /// How far the thing `i` and the next one are apart.
-    fn apart(self, things: &str, i: usize) -> String {
-        let next = i + 1;
-        match self.count {
-            ..0 => format!("{things} {i} and {next} overlap by {self}"),
-            _ => format!("{things} {i} and {next} come {self} apart"),
-        }
-    }
-}
-
 impl fmt::Display for Ticks {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let time = self.unit.show(self.seconds().abs());
+        let time = self.unit.show(self.count.unsigned_abs() as f64 / f64::from(self.hz));
         match self.is_given {
             true => write!(out, "{time} ({})", count(self.count.unsigned_abs(), "tick")),
             false => out.write_str(&time),
@@ -126,7 +110,9 @@ pub struct Pair {
 
 impl Pair {
     fn told(&self, things: &str) -> String {
-        format!("{}, and {} is required", self.gap.apart(things, self.first), self.least)
+        let Self { first, gap, least } = self;
+        let gap = if gap.count < 0 { format!("overlap by {gap}") } else { format!("come {gap} apart") };
+        format!("{things} {first} and {} {gap}, and {least} is required", first + 1)
     }
 }
 

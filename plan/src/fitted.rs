@@ -5,7 +5,7 @@ use shutter_fit::trace::{Refusal, Warning};
 use shutter_fit::unit::{Unit, count, decimals, rounded};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
-use crate::fault::{Fault, What};
+use crate::fault::What;
 use crate::plan::Plan;
 use crate::scene::{Flashes, Measured, Scene, Shutter};
 
@@ -98,14 +98,11 @@ fn planned(fit: &Fit, shutter: Shutter, zero: Zero) -> Result<(Shutter, Zero), R
     let alone = Shutter { delay: None, delay_spread: None, sync_falls: None, ..shutter.clone() };
     match Plan::new(&Scene { shutter: alone, flashes, is_edited: false }) {
         Ok(_) => Ok((shutter, zero)),
-        Err(fault) => Err(no_scene(&fault)),
+        Err(fault) => {
+            let crowded = matches!(*fault.what, What::Close { .. } | What::TimesClose(_));
+            Err(Refusal::NoScene { reason: fault.reason(), crowded })
+        }
     }
-}
-
-/// What keeps a fit from being a scene.
-pub fn no_scene(fault: &Fault) -> Refusal {
-    let crowded = matches!(*fault.what, What::Close { .. } | What::TimesClose(_));
-    Refusal::NoScene { reason: fault.reason(), crowded }
 }
 
 /// A fit's numbers as a scene has them.

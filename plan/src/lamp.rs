@@ -61,13 +61,12 @@ pub struct FullyOpen {
 impl FullyOpen {
     /// Of a curve.
     pub fn new(curve: &ShutterCurve) -> Self {
-        let start = f64::from(curve.open_start());
-        let from_start = |t: f32| f64::from(t) - start;
-        Self { start, from: from_start(curve.open_end()), to: from_start(curve.close_start()) }
+        let [start, open, close] = [curve.open_start(), curve.open_end(), curve.close_start()].map(f64::from);
+        Self { start, from: open - start, to: close - start }
     }
 
     fn after_start(&self, part: f64) -> f64 {
-        self.from + part * (self.to - self.from)
+        self.from + part * self.length()
     }
 
     /// When such a part of it is over.

@@ -17,7 +17,6 @@ use super::mark;
 use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
-use super::sensors;
 use crate::picture;
 use shutter_plan::emit::Form;
 use shutter_plan::facts::Facts;
@@ -177,9 +176,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let to = scenes.iter().chain(&args.picture).map(PathBuf::as_path);
     let to: Vec<&Path> = to.chain(printed).collect();
     let mut outputs = Outputs::new(&[&traces[..], &files].concat(), &to, args.force)?;
-    if let ([_, _, ..], Some(folder)) = (&scenes[..], &args.out) {
-        outputs.in_folder(folder);
-    }
+    outputs.folder = args.out.clone().filter(|_| scenes.len() > 1);
     if let Some(picture) = &args.picture {
         outputs.check(picture, mark::SVG)?;
     }
@@ -209,10 +206,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     // What is refused from here on leaves the report.
     let mut said = Said::default();
     let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut said);
-    let mut told = String::new();
-    let mut warnings = Told::default();
-    speeds.iter().for_each(|speed| warnings.add(&speed.name, &speed.warnings));
-    told += &warnings.text(speeds.len() > 1);
+    let mut told = warned(&speeds);
     told.extend(speeds.iter().filter_map(far_from_nominal));
     told += &said.told;
     let report = match (args.report, speeds.as_slice()) {
@@ -248,7 +242,7 @@ fn sensors<'a>(
     err: &mut dyn Write,
 ) -> Result<(), String> {
     let (time, signals) = args.columns.split_at(clock);
-    let (mut all, mut told) = (Vec::new(), Told::default());
+    let mut all = Vec::new();
     for (i, trace) in traces.iter().enumerate() {
         let mut speed = Vec::<Speed>::new();
         for signal in signals {
@@ -270,42 +264,32 @@ fn sensors<'a>(
             fit.nominal = args.nominal.get(i).or(args.nominal.first()).copied();
             let name = fit.reading.as_ref().and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
             let name = if traces.len() > 1 { format!("{} {name}", file_name(trace)) } else { name };
-            told.add(&name, &warnings);
             speed.push(Speed { name, fit, warnings });
         }
         all.push(speed);
     }
     let report = match args.report {
         Report::Json => json(&all.concat()),
-        Report::Text => sensors::table(&all),
+        Report::Text => fit_many::sensors(&all),
     };
     print(out, &report)?;
-    let _ = err.write_all(told.text(traces.len() * signals.len() > 1).as_bytes());
+    let _ = err.write_all(warned(&all.concat()).as_bytes());
     Ok(())
 }
 
 /// Warnings, those of one code once, with the names of all that they are about.
-#[derive(Default)]
-struct Told(Vec<(String, Warning, Vec<String>)>);
-
-impl Told {
-    fn add(&mut self, name: &str, warnings: &[Warning]) {
-        for warning in warnings {
-            match self.0.iter_mut().find(|(_, other, _)| other.code() == warning.code()) {
-                Some((_, _, also)) => also.push(name.into()),
-                None => self.0.push((name.into(), warning.clone(), Vec::new())),
-            }
+fn warned(speeds: &[Speed]) -> String {
+    let mut told: Vec<(&str, &Warning, String)> = Vec::new();
+    for (name, warning) in speeds.iter().flat_map(|it| it.warnings.iter().map(|warning| (&it.name, warning))) {
+        match told.iter_mut().find(|(_, other, _)| other.code() == warning.code()) {
+            Some((_, _, also)) if also.is_empty() => *also = format!("; so it is with {name}"),
+            Some((_, _, also)) => *also += &format!(", {name}"),
+            None => told.push((name, warning, String::new())),
         }
     }
-
-    fn text(&self, is_named: bool) -> String {
-        let line = |(name, warning, also): &(String, Warning, Vec<String>)| {
-            let name = if is_named { format!("{name}: ") } else { String::new() };
-            let also = if also.is_empty() { String::new() } else { format!("; so it is with {}", also.join(", ")) };
-            format!("warning: {name}{}{also}\n", warning.with_option())
-        };
-        self.0.iter().map(line).collect()
-    }
+    let named = |name| if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
+    let line = |(name, warning, also)| format!("warning: {}{}{also}\n", named(name), Warning::with_option(warning));
+    told.into_iter().map(line).collect()
 }
 
 /// What is called by another speed is another one, or its trace is.
@@ -432,7 +416,7 @@ fn write(
     }
     if let (Some(file), [Speed { name, fit, .. }]) = (&args.picture, &*speeds) {
         let picture = picture::trace(name, fit).map_err(|e| format!("the picture: {e}"))?;
-        outputs.add(file, mark::SVG, &picture)?;
+        outputs.add(file, Some(mark::SVG), picture)?;
     }
     outputs.ready()
 }

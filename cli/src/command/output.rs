@@ -41,7 +41,7 @@ pub fn is_stream(path: &Path) -> bool {
 pub struct Outputs {
     force: bool,
     /// A folder that is made if files are to be in it.
-    folder: Option<PathBuf>,
+    pub folder: Option<PathBuf>,
     /// What was where a file is to be, when that was looked at; nothing where it may be replaced whatever it is.
     seen: Vec<(PathBuf, Option<Vec<u8>>)>,
     /// Whole, and not in their places yet: these, and the names by which they were asked for.
@@ -79,11 +79,6 @@ impl Outputs {
             }
         }
         Ok(Self { force, ..Self::default() })
-    }
-
-    /// Files may be in this folder, which need not be there.
-    pub fn in_folder(&mut self, folder: &Path) {
-        self.folder = Some(folder.into());
     }
 
     /// What an older file holds that is to be written to; nothing where that counts for nothing. What cannot be written
@@ -124,21 +119,19 @@ impl Outputs {
         Err(format!("{}: {reason}; --force replaces it", path.display()))
     }
 
-    /// Adds a file of such comments in place of its own older one.
-    pub fn add(&mut self, path: &Path, comment: Comment, text: &str) -> Result<(), String> {
+    /// Adds a file in place of its own older one, by its comments; without any, an older one has to be the same.
+    pub fn add(&mut self, path: &Path, comment: Option<Comment>, text: String) -> Result<(), String> {
+        let Some(comment) = comment else {
+            return match self.old(path)? {
+                Some(old) if old != text.as_bytes() && !self.force => Err(format!(
+                    "{}: it holds something else, and a table does not tell whose; --force replaces it",
+                    path.display()
+                )),
+                _ => self.replace(path, text),
+            };
+        };
         self.check(path, comment)?;
-        self.replace(path, mark::marked(comment, text))
-    }
-
-    /// Adds a file that has no comments; an older one has to be the same.
-    pub fn add_table(&mut self, path: &Path, text: String) -> Result<(), String> {
-        match self.old(path)? {
-            Some(old) if old != text.as_bytes() && !self.force => Err(format!(
-                "{}: it holds something else, and a table does not tell whose; --force replaces it",
-                path.display()
-            )),
-            _ => self.replace(path, text),
-        }
+        self.replace(path, mark::marked(comment, &text))
     }
 
     /// Adds a file, whatever an older one holds.

@@ -83,7 +83,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             for (file, draw) in pictures {
                 if let Some(file) = file {
                     let svg = draw(name, plan).map_err(|e| format!("the picture: {e}"))?;
-                    outputs.add(file, mark::SVG, &svg)?;
+                    outputs.add(file, Some(mark::SVG), svg)?;
                 }
             }
             match form {
@@ -97,10 +97,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     };
     let printed = match to.as_ref().zip(*form) {
         Some((file, form)) => {
-            match comment(form) {
-                Some(comment) => outputs.add(file, comment, &text)?,
-                None => outputs.add_table(file, text)?,
-            }
+            outputs.add(file, comment(form), text)?;
             String::new()
         }
         None => text,
