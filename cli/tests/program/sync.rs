@@ -395,7 +395,7 @@ fn a_stereo_sound_has_a_sync() {
     assert!((number(&json, "delay_spread_s") - record.spread()).abs() < 9e-6, "{json}");
     assert_eq!((&json["columns"]["signal"], &json["columns"]["sync"]), (&1.into(), &2.into()));
     folder.refuses(&[
-        ("fit two.wav --columns 1 --sync 1", "no delay: its channel is the signal's"),
+        ("fit two.wav --columns 1 --sync 1", "no delay: column 1 is the signal's"),
         ("fit one.wav --sync 1", "no delay: its channel is the signal's"),
         ("fit one.wav --sync 2", "no delay: there is no column '2'"),
     ]);
