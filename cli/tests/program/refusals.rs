@@ -3,6 +3,8 @@
 
 use shutter_plan::plan::Plan;
 
+use crate::session::wrapped;
+
 /// At 3/4 s of exposure and a gap of 1/10 s, 7 triggers are sure.
 pub const TRAPEZOID: &str = "open_start = 0.0\nopen_end = 0.25\nclose_start = 0.75\nclose_end = 1.0\ntriggers = 7\n\
                              timer_hz = 1000\nmin_gap = 0.1\n";
@@ -117,19 +119,6 @@ fn a_scene_is_refused_at_its_line_or_planned() {
     }
     now += &last;
     snapbox::assert_data_eq!(now, snapbox::file!["refusals.txt"].raw());
-}
-
-/// In lines of at most 120 columns.
-fn wrapped(text: &str) -> String {
-    let (mut all, mut line) = (String::new(), String::from(" "));
-    for word in text.split_whitespace() {
-        if line.chars().count() + word.chars().count() > 118 {
-            all += &format!("{line}\n");
-            line = " ".into();
-        }
-        line += &format!(" {word}");
-    }
-    format!("{all}{line}\n")
 }
 
 /// And 10 000 triggers are the most.

@@ -3,8 +3,9 @@
 
 use std::fs;
 
-use crate::refusals::{BOX, MEASURED, TRAPEZOID, with};
+use crate::refusals::{BOX, MEASURED, TIMES, TRAPEZOID, with};
 use crate::support::{Folder, SCENES, leaf, rows, sampled, trapezoid};
+use crate::sync;
 
 #[test]
 fn the_session_is_as_it_was() {
@@ -21,6 +22,8 @@ fn the_session_is_as_it_was() {
     folder.write("measured.toml", MEASURED);
     folder.write("bare.toml", with(TRAPEZOID, ""));
     folder.write("box.toml", with(BOX, "pulse = 0.1"));
+    folder.write("times.toml", with(TIMES, "delay = 1; nominal = 2"));
+    ["five.csv", "one.csv"].iter().zip(sync::shots()).for_each(|(name, text)| folder.write(name, text));
     folder.write("trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
     fs::create_dir(folder.path("folder.csv")).unwrap();
     let said = |line: &str| {
@@ -40,7 +43,7 @@ fn the_session_is_as_it_was() {
 }
 
 /// In lines of at most 120 columns.
-fn wrapped(text: &str) -> String {
+pub fn wrapped(text: &str) -> String {
     let mut all = String::new();
     for line in text.lines() {
         let mut width = 0;

@@ -4,7 +4,7 @@
 use serde_json::Value;
 
 use crate::generator::Random;
-use crate::support::{Folder, codes, has, number};
+use crate::support::{Folder, codes, number};
 
 /// Opens from 0 to 1 ms and closes from 5 to 6.
 fn openness(t: f64) -> f64 {
@@ -175,86 +175,26 @@ fn a_record_may_begin_in_the_middle_of_a_shot() {
     four.is(&json, [3e-6; 2]);
 }
 
-/// What is found is said, in the report as in the scene, which `plan` takes and a new fit keeps.
-#[test]
-fn the_spread_is_told_and_kept() {
-    let folder = Folder::new("told");
-    let record = Record { noise: 0.0, ..Record::new(5, 3) };
-    folder.write("five.csv", record.csv());
-    let run = folder.run("fit five.csv --sync CH2 --out leaf.toml --triggers 4").well();
-    assert!(!run.err.contains("warning"), "{}", run.err);
-    let (out, spread) = (run.out, format!("{:.2}", 1e3 * record.spread()));
-    for line in [
-        "sync         column 3 of 3, \"CH2\"",
-        "             falls from 3.3 to 0.1; an edge counts at 1.7",
-        &format!("spread       {spread}"),
-    ] {
-        assert!(out.lines().any(|it| it.starts_with(line)), "{line}\n{out}");
-    }
-    let is_its = |line: &&str| ["sync ", "delay ", "spread "].iter().any(|it| line.starts_with(it));
-    assert!(out.lines().filter(is_its).all(|line| line.chars().count() <= 80), "{out}");
-    let json = folder.json("five.csv --sync CH2");
-    assert_eq!(json["sync_falls"], true);
-    assert!((number(&json, "sync_threshold") - 1.7).abs() < 0.01);
-    let first = folder.text("leaf.toml");
-    for words in [&format!("\ndelay_spread = {spread}"), "\nsync = \"falls from 3.3 to 0.1; an edge counts at 1.7\"\n"]
-    {
-        assert!(first.contains(words), "{first}");
-    }
+/// A record of five shots, and one of one, of which session.txt has what is told.
+pub fn shots() -> [String; 2] {
+    [Record { noise: 0.0, ..Record::new(5, 3) }.csv(), Record::new(1, 4).csv()]
+}
 
-    let out = folder.run("plan leaf.toml --min-gap 100us").well().out;
-    let told = out.lines().find(|line| line.starts_with("spread ")).unwrap();
-    // The spread is some 20 µs, a share 1.25 ms and the gap 0.1 ms.
-    let percent = |of: f64| 100.0 * record.spread() / of;
-    let said: Vec<f64> = told.split(" %").filter_map(|it| it.rsplit(' ').next()?.parse().ok()).collect();
-    let off = [said[0] - percent(1.25e-3), said[1] - percent(1e-4)].map(f64::abs);
-    assert!(off[0] < 0.3 && off[1] < 4.0, "{told}");
-    let (_, written) = first.split_once("\ndelay_spread = ").unwrap();
-    let written: f64 = written.lines().next().unwrap().parse().unwrap();
-    let most = (0.01 * 5.0 / written) as u32;
-    assert!(told.contains(&format!("up to {most} trigger")), "{told}");
-    let json = folder.run("plan leaf.toml --emit json --set-up in_path --timer-hz 1MHz --min-gap 0").out;
+/// The scene has the spread and the edge that were put in, and a fit by the same leaves all as it is.
+#[test]
+fn the_spread_is_kept() {
+    let (folder, record) = (Folder::new("kept_spread"), Record { noise: 0.0, ..Record::new(5, 3) });
+    folder.write("five.csv", record.csv());
+    let fit = || {
+        folder.run("fit five.csv --sync CH2 --out leaf.toml --triggers 4").well();
+        folder.text("leaf.toml")
+    };
+    let (first, second) = (fit(), fit());
+    assert_eq!(first, second);
+    let json = folder.run("plan leaf.toml --emit json --set-up in_path --timer-hz 1MHz --min-gap 0").well().out;
     let json: Value = serde_json::from_str(&json).unwrap();
     assert!((number(&json, "delay_spread_s") - record.spread()).abs() < 3e-6);
     assert_eq!((&json["sync_falls"], &json["set_up"]), (&true.into(), &"in_path".into()));
-
-    // A fit by the same leaves all as it is, and an option that contradicts what was measured is told.
-    folder.run("fit five.csv --sync CH2 --out leaf.toml").well();
-    assert_eq!(folder.text("leaf.toml"), first);
-    let plan = "plan leaf.toml --timer-hz 1MHz --min-gap 0 --emit rust --set-up";
-    folder
-        .run(&format!("{plan} emulated --sync-falls false"))
-        .prints(&["pub const SYNC_FALLS: bool = false;"])
-        .tells(&["the trace has sync_falls = true, and the flashes count from the rising edge"]);
-    // So is what the shutter leaves of flashes that nothing makes equal.
-    let dimmed = "warning: leaf: the shutter is in the light's path";
-    folder.run(&format!("{plan} in_path --triggers 16")).tells(&[dimmed]);
-    for quiet in ["emulated", "emulated --sync-falls true", "in_path --fully-open"] {
-        folder.run(&format!("{plan} {quiet}")).quietly();
-    }
-    // And what a coarse timer does to triggers, and leaves of equal doses. A share of 5 ms / 8 has 6.25 ticks of 10
-    // kHz.
-    let flashes = "plan leaf.toml --set-up emulated --triggers 8 --min-gap 0 --emit rust --timer-hz";
-    folder
-        .run(&format!("{flashes} 10kHz"))
-        .prints(&["\n// doubt        a tick is so long that flashes move by up to 8 % of a share; "])
-        .tells(&["flashes move by up to 8 % of a share"]);
-    let out = folder.run(&format!("{flashes} 1MHz")).quietly();
-    assert!(!out.contains("// doubt"), "{out}");
-    let pulses = "plan leaf.toml --set-up in_path --duty 0.5 --triggers 16 --min-gap 0 --emit rust --timer-hz";
-    let coarse = folder
-        .run(&format!("{pulses} 20kHz"))
-        .prints(&["of doses that differ by up to "])
-        .tells(&["warning: leaf: a tick is so long that the doses differ by up to "]);
-    assert!(!coarse.out.contains("of equal doses"), "{}", coarse.out);
-    assert!(folder.run(&format!("{pulses} 10MHz")).quietly().contains(", of equal doses\n"));
-    // One shot tells no spread, and a fit without a sync no delay: nothing older is left.
-    folder.write("one.csv", Record::new(1, 4).csv());
-    let one = "\nspread       unknown: one shot does not tell how shots differ\n";
-    folder.run("fit one.csv --sync CH2 --out leaf.toml").prints(&[one]);
-    has(&folder.text("leaf.toml"), &["\ndelay = "], &["spread"]);
-    folder.run("fit five.csv --out leaf.toml").well();
-    has(&folder.text("leaf.toml"), &[], &["\ndelay", "_spread", "\nsync"]);
 }
 
 /// Shots in files of their own count together if they are of one speed.
