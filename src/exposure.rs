@@ -67,11 +67,6 @@ impl Exposure {
         self.ramp(side).end_time(side)
     }
 
-    /// The same in units.
-    pub(crate) const fn end_units(&self, side: Side) -> i64 {
-        self.in_units(self.end_time(side))
-    }
-
     /// The time of the join of the ramp at a side.
     pub(crate) const fn join_time(&self, side: Side) -> f32 {
         self.ramp(side).end_time(side.other())

@@ -13,6 +13,7 @@ pub(crate) enum Side {
 use Side::{End, Start};
 
 impl Side {
+    #[cfg(test)]
     pub(crate) const BOTH: [Self; 2] = [Start, End];
 
     #[inline(always)]
@@ -32,10 +33,7 @@ impl Side {
 
     #[inline(always)]
     pub(crate) const fn other(self) -> Self {
-        match self {
-            Start => End,
-            End => Start,
-        }
+        Self::end_if(!self.is_end())
     }
 }
 

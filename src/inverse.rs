@@ -25,7 +25,8 @@ use crate::exposure::Exposure;
 use crate::fixed::{EIGHTH, LINE_FROM, floor_bits, rounded, rounded_near_0, upper_word};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
-use crate::octave::{Octave, build};
+use crate::octave::Octave;
+use crate::octave::build::build;
 use crate::ramp::bezier::CubicBezier;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +43,7 @@ pub(crate) struct Inverse<const OCTAVES: usize> {
 }
 
 /// Where a fraction lies.
-enum Section {
+pub(crate) enum Section {
     /// On the plateau's line: the time, in units.
     Line(i64),
     /// On the ramp at a side; or on the plateau below the line, where a search answers (`build::range`).
@@ -61,12 +62,10 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
             tops: [[0; 2]; 2],
             octaves: [[Octave::NONE; OCTAVES]; 2],
         };
-        let (ramps, mut side) = ([*opening, *closing], 0);
-        // `OCTAVES > 0` leaves the code that builds octaves out where there are none.
-        while OCTAVES > 0 && side < 2 {
-            let octaves = &mut this.octaves[side];
-            this.tops[side] = build::build(&this.exposure, &ramps, Side::BOTH[side], octaves);
-            side += 1;
+        // Where there are none, the code that builds octaves is left out.
+        if OCTAVES > 0 {
+            let (ramps, [start, end]) = ([*opening, *closing], &mut this.octaves);
+            this.tops = [build(&exposure, &ramps, Start, start), build(&exposure, &ramps, End, end)];
         }
         Ok(this)
     }
@@ -121,7 +120,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// The section of a fraction from a side, which has these bits.
     #[inline(always)]
-    const fn section(&self, side: Side, bits: u32) -> Section {
+    pub(crate) const fn section(&self, side: Side, bits: u32) -> Section {
         let [count, last] = self.line_bits[side as usize];
         // Negative beyond the join. Of a negative number or NaN it is `count` or more: either ramp will do, as no
         // octave has such bits.

@@ -70,7 +70,7 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }
-    let end = path.exposure.end_units(path.side);
+    let end = path.exposure.in_units(path.exposure.end_time(path.side));
     octave.middle = if path.side.is_end() { end - middle } else { end + middle };
     octave.factor = if path.side.is_end() { -factor } else { factor };
     Some(Candidate {

@@ -37,20 +37,17 @@ pub(crate) struct Ramp {
 impl Ramp {
     /// A ramp of a curve with one over its area.
     pub(crate) const fn new(bezier: &CubicBezier, per_area: f64, share: i64, units: Units) -> Self {
-        let times = bezier.times();
         let powers = [Shape::new(bezier, Side::Start).exposure(), Shape::new(bezier, Side::End).exposure()];
         let (mut mass, mut k) = ([[0; 6]; 2], 0);
-        while k < 6 {
-            mass[0][k] = fixed_towards_0(powers[0][k] * per_area, MASS_SHIFT as i32 - 62);
-            mass[1][k] = fixed_towards_0(powers[1][k] * per_area, MASS_SHIFT as i32 - 62);
+        while k < 12 {
+            mass[k / 6][k % 6] = fixed_towards_0(powers[k / 6][k % 6] * per_area, MASS_SHIFT as i32 - 62);
             k += 1;
         }
-        let (mut differences, mut k) = ([0; 3], 0);
-        while k < 3 {
-            differences[k] = units.refined(units.of(times[k + 1]) - units.of(times[k])) >> WAY_SHIFT;
-            k += 1;
-        }
-        Self { ends: [times[0], times[3]], openness: bezier.opennesses(), differences, mass, share }
+        let [t0, t1, t2, t3] = bezier.times();
+        let [u0, u1, u2, u3] = [units.of(t0), units.of(t1), units.of(t2), units.of(t3)];
+        let [d0, d1, d2] = [units.refined(u1 - u0), units.refined(u2 - u1), units.refined(u3 - u2)];
+        let differences = [d0 >> WAY_SHIFT, d1 >> WAY_SHIFT, d2 >> WAY_SHIFT];
+        Self { ends: [t0, t3], openness: bezier.opennesses(), differences, mass, share }
     }
 
     /// The time of the end that faces a side.

@@ -132,7 +132,8 @@ impl TickScale {
             return Err(ScheduleError::RateZero);
         }
         let curve = &inverse.exposure;
-        let [start_units, end_units] = [curve.end_units(Side::Start), curve.end_units(Side::End)];
+        let [start_units, end_units] =
+            [curve.in_units(curve.end_time(Side::Start)), curve.in_units(curve.end_time(Side::End))];
         let (length, exponent) = ((end_units - start_units) as u64, curve.units.exponent());
         if exponent_of_ticks(length, rate, exponent) > TICK_BITS {
             return Err(too_high(length, rate, exponent));
@@ -152,7 +153,7 @@ impl TickScale {
 
     /// The tick at which the curve ends.
     pub(crate) const fn length<const OCTAVES: usize>(&self, inverse: &Inverse<OCTAVES>) -> u32 {
-        self.tick(inverse.exposure.end_units(Side::End))
+        self.tick(inverse.exposure.in_units(inverse.exposure.end_time(Side::End)))
     }
 
     /// The nearest tick to a time.

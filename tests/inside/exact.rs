@@ -2,12 +2,13 @@
 
 use crate::exposure::Exposure;
 use crate::fixed::{
-    ONE, WORD, fixed_down, fixed_towards_0, floor_bits, power_of_two, power_of_two_f64, single, times, times_up,
+    LINE_FROM, ONE, WORD, fixed_down, fixed_towards_0, floor_bits, in_2_60, power_of_two, power_of_two_f64, single,
+    times, times_up,
 };
 use crate::fraction::{Fraction, Side};
 use crate::inside::support::curves::{Rng, named, random_hard, random_typical};
 use crate::inside::support::oracle::{Curve, Dd, Exact, ulp_f32};
-use crate::inverse::Inverse;
+use crate::inverse::{Inverse, Section};
 use crate::octave::build::{build, range};
 use crate::octave::{Octave, bound, times_high_by_halves, top_at};
 use crate::ramp::bezier::CubicBezier;
@@ -123,6 +124,7 @@ fn conversions_to_whole_units() {
         assert_eq!(fixed_down(x as f32, e) as f64, units(f64::from(x as f32)).floor(), "{x:e} in 2^{e}");
         assert_eq!(fixed_towards_0(x, e) as i128, units(x).trunc() as i128, "{x:e} in 2^{e}");
         let a = rng.unit() * power_of_two_f64(-(rng.below(40) as i32));
+        assert_eq!(in_2_60(a as f32) as f64, (f64::from(a as f32) * power_of_two_f64(60)).floor(), "{a:e}");
         let [at, next] = [0, 1].map(|more| f64::from(f32::from_bits(floor_bits(a) + more)));
         assert!(at <= a && a < next, "{a:e}");
     }
@@ -305,6 +307,32 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
     }
     std::println!("parts of what is proven: {worst:?}");
     assert!(worst.iter().all(|worst| *worst <= 1.0), "{worst:?}");
+}
+
+/// Next to a join each fraction is on its own part of the curve.
+#[test]
+fn a_fraction_next_to_a_join_is_on_its_own_part() {
+    for (inverse, side) in inverses().flat_map(|inverse| Side::BOTH.map(|side| (inverse, side))) {
+        let joins = inverse.exposure.join_fractions(side);
+        let [near, far] = [joins[0].max(f64::from(LINE_FROM)), joins[1]];
+        for bits in joins.into_iter().flat_map(|join| [-2, -1, 0, 1, 2].map(|by| floor_bits(join) as i32 + by)) {
+            let a = f64::from(f32::from_bits(bits as u32));
+            if bits > 0 && a < 1.0 {
+                let found = match inverse.section(side, bits as u32) {
+                    Section::Line(_) => 1,
+                    Section::Ramp(ramp) => {
+                        if ramp == side {
+                            0
+                        } else {
+                            2
+                        }
+                    }
+                };
+                let part = if a > far { 2 } else { usize::from(a > near) };
+                assert_eq!(found, part, "{a:e} of {joins:?}");
+            }
+        }
+    }
 }
 
 /// A search rounds its fraction to the nearest multiple of 2⁻⁴⁶: on a box the time is that share of its length.
