@@ -16,7 +16,7 @@ from common import *
 DEGREE, POINTS = constant("DEGREE"), constant("POINTS")
 ONE, COSINE = int(constant("bound::ONE")), constant("COSINE")
 single = lambda text: Fraction(struct.unpack("f", struct.pack("f", float(text)))[0])
-FACTOR = [single(text) for text in re.findall(r"\d+\.[\d_]+", text_of("FACTOR"))]
+FACTOR = {1: single(text_of("FACTOR_OF_ALL")), 2: single(text_of("FACTOR_OF_HALF"))}
 # --- Cosines, by `libm` to 2^-50, where 2^-40 would do.
 cosine = lambda half_turns: Fraction(math.cos(math.pi * half_turns))
 
@@ -38,7 +38,7 @@ proven(f"the table's {POINTS // 2 + 1} cosines are within 2^{log2(off):.2f}",
 n = 6 * DEGREE + 3
 exact = {stride: 1 / cosine(n * stride / (2 * POINTS)) for stride in (1, 2)}
 factor_off = max(abs(FACTOR[stride] / exact[stride] - 1) for stride in exact) / U
-proven(f"R times the openness has degree {n}, and FACTOR is 1 / cos({n} pi / 2N) for N = {POINTS // 2} and {POINTS}, "
+proven(f"R times the openness has degree {n}, and a FACTOR is 1 / cos({n} pi / 2N) for N = {POINTS // 2} and {POINTS}, "
        f"to {float(factor_off):.2f} roundings",
        n == 51 and n < POINTS // 2 and factor_off <= 1,
        # A degree of 50 would not do.

@@ -12,10 +12,10 @@ use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::area;
 use crate::search::LEAST_ERROR;
 
-/// A search rounds its fraction to the nearest multiple of 2⁻⁴⁶: every `f32` from 2⁻²³ on is one. It errs by less than
-/// this share of that, and [`LEAST_ERROR`]: so neighbouring fractions keep their order.
-// proofs/search.py
+/// A search rounds its fraction to the nearest multiple of `2^-GRID`: every `f32` from 2⁻²³ on is one.
 const GRID: u32 = 46;
+/// A search collects its fraction to `2^-ERROR_SHIFT` of it, and [`LEAST_ERROR`]: so neighbouring fractions keep their
+/// order (proofs/search.py).
 const ERROR_SHIFT: u32 = 27;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,9 +45,9 @@ impl Exposure {
         let far = if plateau > 0.0 { fixed_towards_0(areas[1] / whole, -62) } else { ONE - near };
         let (units, per_area) = (Units::new(start, end), 1.0 / whole);
         let ramps = [Ramp::new(opening, per_area, near, units), Ramp::new(closing, per_area, far, units)];
-        // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. It is
-        // off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes 2⁸ units
-        // or more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
+        // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. From
+        // u = 1/512 on an ulp of `u` is 2⁻³² or more, and the slope is 2⁴⁰ units or more, by the rules of `domain`: so
+        // an ulp takes 2⁸ units. The line is off by a few, and what an `f64` rounds of the areas (proofs/domain.py).
         let line_base = units.of(open) - fixed_towards_0(areas[0], units.exponent());
         let line_slope = units.of(close) + fixed_towards_0(areas[1], units.exponent()) - line_base;
         Ok(Self { ramps, per_area, line_base, line_slope, units })

@@ -54,14 +54,14 @@ pub(crate) struct Units {
 
 impl Units {
     pub(crate) const fn new(start: f32, end: f32) -> Self {
-        const fn exponent(x: f64) -> i32 {
+        const fn unit_exponent(x: f64) -> i32 {
             (x.to_bits() >> 52) as i32 - 1023 - 61
         }
         let (start, end) = (start as f64, end as f64);
         let most = if start.abs() > end.abs() { start.abs() } else { end.abs() };
         let most = if end - start > most { end - start } else { most };
-        let fine = (exponent(most) - exponent(end - start)) as u32;
-        Self { word: power_of_two(exponent(most) + 32), fine }
+        let unit = unit_exponent(most);
+        Self { word: power_of_two(unit + 32), fine: (unit - unit_exponent(end - start)) as u32 }
     }
 
     /// A unit is the time `2^exponent`.
@@ -70,8 +70,8 @@ impl Units {
         exponent(self.word) - 32
     }
 
-    /// A time in units, rounded down. It is exact where `fine` is 2 or more: no time is then nearer to 0 than a fourth
-    /// of the greatest.
+    /// A time in units, rounded down. That costs a way two fine units at most: where a unit is more of them, no time is
+    /// nearer to 0 than a fourth of the greatest, and all times are whole units.
     #[inline(always)]
     pub(crate) const fn of(self, time: f32) -> i64 {
         fixed_down(time, self.exponent())
@@ -135,8 +135,8 @@ pub(crate) const fn floor_bits(x: f64) -> u32 {
     if rounded as f64 > x { bits - 1 } else { bits }
 }
 
-/// `x` in single precision, within an ulp and a half; or within 2⁸, if it is negative. By words, as an FPU converts
-/// those.
+/// `x` in single precision, for a step: within an ulp and a half, or within 2⁸ where it is negative, as its two words
+/// then cancel. By words, as an FPU converts those.
 #[inline(always)]
 pub(crate) const fn single(x: i64) -> f32 {
     (x >> 32) as i32 as f32 * WORD + x as u32 as f32
@@ -173,7 +173,7 @@ fn rounded_near_0_cold(x: i64, word: f32) -> f32 {
 // proofs/words.py
 #[inline(always)]
 pub(crate) fn rounded_near_0(x: i64, word: f32) -> f32 {
-    // One word moves up by 31, which keeps its sign.
+    // An `x` of one word moves up by 31, and keeps its sign.
     let sign = (x >> 63) as i32;
     let is_word = (x >> 32) as i32 == sign;
     let (x, moved) = if is_word { (x << 31, 31) } else { (x, 0) };

@@ -32,8 +32,8 @@ use crate::ramp::bezier::CubicBezier;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// By side, `[count, last]`: the bits of the last `f32`, below 1, at or before the far ramp's join. From there
-    /// down, so many are on the plateau's line.
+    /// By side, `[count, last]`: so many `f32` are on the plateau's line, down from the one with the bits `last`. That
+    /// is the last below 1 at or before the far ramp's join.
     line_bits: [[u32; 2]; 2],
     /// By side: the bits of the tops at index 0, of the ramp at the start and of the one at the end. With them
     /// `(bits(top) - bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
@@ -46,7 +46,8 @@ pub(crate) struct Inverse<const OCTAVES: usize> {
 pub(crate) enum Section {
     /// On the plateau's line: the time, in units.
     Line(i64),
-    /// On the ramp at a side; or on the plateau below the line, where a search answers (`build::range`).
+    /// On the ramp at a side; or on the plateau below the line: there `build::range` gives no octaves, and a search
+    /// answers.
     Ramp(Side),
 }
 
@@ -124,9 +125,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let [count, last] = self.line_bits[side as usize];
         // Negative beyond the join. Of a negative number or NaN it is `count` or more: either ramp will do, as no
         // octave has such bits.
-        let left = last.wrapping_sub(bits);
-        if left >= count {
-            return Section::Ramp(Side::end_if(side.is_end() != ((left as i32) < 0)));
+        let to_last = last.wrapping_sub(bits);
+        if to_last >= count {
+            return Section::Ramp(Side::end_if(side.is_end() != ((to_last as i32) < 0)));
         }
         let word = in_line_units(bits);
         // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.

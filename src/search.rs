@@ -49,6 +49,7 @@ impl<const N: usize> Series<'_, N> {
             c[k] = single(self.c[k]);
             k += 1;
         }
+        // `sought` and `missing` are in the coefficients' unit; `target`, `error` and `measured` are not shifted.
         let unit = power_of_two(-(self.shift as i32));
         let sought = single(target) * unit;
         let guess = guess(&c, sought);
@@ -63,11 +64,11 @@ impl<const N: usize> Series<'_, N> {
                 missing = sought - value(&c, x);
             }
             let step = step(&c, x, missing);
-            let size = place(step.abs());
+            let length = place(step.abs());
             // Half way to the end, where the step would leave.
             let room = if step < 0.0 { p } else { u64::MAX - p };
-            let size = if size < room { size } else { room / 2 };
-            p = if step < 0.0 { p - size } else { p + size };
+            let length = if length < room { length } else { room / 2 };
+            p = if step < 0.0 { p - length } else { p + length };
             is_far = evaluations < FREE_STEPS && step.abs() > FAR * x;
             if is_far {
                 continue;
@@ -76,14 +77,14 @@ impl<const N: usize> Series<'_, N> {
                 p = low + (high - low) / 2;
             }
             let measured = target - self.at(p);
-            let size = measured.abs();
-            if size <= error || evaluations >= MAX_EVALUATIONS {
+            let off = measured.abs();
+            if off <= error || evaluations >= MAX_EVALUATIONS {
                 return (p, evaluations);
             }
             if evaluations >= FREE_STEPS {
                 *(if measured > 0 { &mut low } else { &mut high }) = p;
             }
-            missing = single(size) * if measured > 0 { unit } else { -unit };
+            missing = single(off) * if measured > 0 { unit } else { -unit };
         }
     }
 }
@@ -113,8 +114,8 @@ const fn value<const N: usize>(c: &[f32; N], x: f32) -> f32 {
 
 /// Halley's step from `x` for what is missing there of `Σ c[k - 1] x^k`: `n / (1 + b)`, with Newton's step `n` and
 /// `b = n d2 / d1`, the slope and half the second derivative. Up to `b = 1/2` it is `n (1 - b + b²)`, since a division
-/// is slow. Beyond, that would grow again, and a search might swing. It multiplies `x` by 1/4 to 2.5, since Newton
-/// overshoots where the slope dips ahead.
+/// is slow. Beyond, that would grow again, and a search might swing. The place stays inside by what [`Series::solve`]
+/// makes of a step that leads out.
 #[inline(always)]
 const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
     let (mut d1, mut d2, mut k) = (c[N - 1] * N as f32, 0.0, N - 1);
@@ -137,8 +138,8 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// [`from_log`] comes out too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as
-/// often too small as too great.
+/// [`from_log`] is too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as often
+/// too small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.

@@ -12,9 +12,10 @@ use crate::octave::path::absolute;
 /// N, and `cos(π / N)`.
 const POINTS: usize = 192;
 const COSINE: f64 = 0.9998661379095618;
-/// `1 / cos(51 π stride / 2N)`, by the stride, 1 or 2: every second point alone is as if N were 96.
+/// `1 / cos(51 π / 2N)` for all points, and for every second one, which is as if N were 96.
 // proofs/certificate.py
-const FACTOR: [f32; 4] = [0.0, 1.093_840_8, 1.489_072_6, 0.0];
+const FACTOR_OF_ALL: f32 = 1.093_840_8;
+const FACTOR_OF_HALF: f32 = 1.489_072_6;
 
 /// `cos(i π / N)` for `i` from 0 to N / 2, each from the two before it. They count 2⁻³⁰ (`proofs/certificate.py`).
 const COSINES: &[i32; POINTS / 2 + 1] = &{
@@ -66,8 +67,8 @@ pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
     value
 }
 
-/// Upper bounds of `|R|`, in lsb, and of `|R|` times a cubic of `s`, the openness over some unit, by every `stride`-th
-/// point. `position` and `time` are in fixed point. Samples are off by at most `noise` lsb.
+/// Upper bounds of `|R|`, in lsb, and of `|R|` times a cubic of `s`, the openness over some unit: by all points, or by
+/// every second one. `position` and `time` are in fixed point. Samples are off by at most `noise` lsb.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -75,7 +76,7 @@ pub(crate) const fn errors(
     time: &[i64; 4],
     openness: &[f32; 4],
     noise: f32,
-    stride: usize,
+    all: bool,
 ) -> (f32, f32) {
     let (mut in_time, mut in_exposure, mut i) = (0.0, 0.0, 0);
     while i <= POINTS {
@@ -94,8 +95,8 @@ pub(crate) const fn errors(
         in_time = if error > in_time { error } else { in_time };
         // A NaN stays, and is refused.
         in_exposure = if weighted <= in_exposure { in_exposure } else { weighted };
-        i += stride;
+        i += if all { 1 } else { 2 };
     }
-    let factor = SLACK * FACTOR[stride & 3];
+    let factor = SLACK * if all { FACTOR_OF_ALL } else { FACTOR_OF_HALF };
     ((in_time + noise) * factor, (in_exposure + noise * absolute(openness, 1.0)) * factor)
 }

@@ -15,8 +15,8 @@ use crate::ramp::bezier::CubicBezier;
 /// has less of the ramp.) Found by trial.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
-/// The top of a ramp without octaves. Of every fraction, and of NaN, the index is 64 or more, though the near ramp's top
-/// is raised by as many octaves as the far ramp has.
+/// The top of a ramp without octaves. Of every fraction, and of NaN, the index is 64 or more, though the near ramp's
+/// top is raised by as many octaves as the far ramp has.
 // proofs/octaves.py
 const NO_OCTAVES: u32 = power_of_two(63).to_bits();
 
@@ -122,8 +122,9 @@ const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };
     let top = least + eighths * EIGHTH;
-    // One more where the range begins within 16 ulp of an octave's end: rounding might put its first fraction into the
-    // octave below.
-    let beyond = top.wrapping_sub(floor_bits(from));
-    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + EIGHTH } else { top }
+    // One more where the range begins within 16 ulp of an octave's end, which is whole octaves below the top: rounding
+    // might put its first fraction into the octave below.
+    let to_top = top.wrapping_sub(floor_bits(from));
+    let is_near_an_end = to_top.wrapping_add(16) & 0x7F_FFFF < 32;
+    if from > 0.0 && is_near_an_end { top + EIGHTH } else { top }
 }

@@ -51,21 +51,21 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
     if !(most > 0.0 && most < f32::MAX) {
         return None;
     }
-    let unit = path.exposure.units.exponent();
-    let up = exponent(most) - 30 - unit;
-    let up = if up > 0 { up } else { 0 };
+    let unit_exponent = path.exposure.units.exponent();
+    let lsb_exponent = exponent(most) - 30;
+    let lsb_exponent = if lsb_exponent > unit_exponent { lsb_exponent } else { unit_exponent };
     // The factor is an `i32`.
-    if up > 30 {
+    if lsb_exponent - unit_exponent > 30 {
         return None;
     }
-    let (factor, lsb) = (1 << up, power_of_two_f64(unit + up));
+    let (factor, lsb) = (1 << (lsb_exponent - unit_exponent), power_of_two_f64(lsb_exponent));
     let mut octave = Octave { center: span.center() as i32, ..Octave::NONE };
     let mut k = DEGREE;
     while k > 0 {
-        octave.c[DEGREE - k] = rounded(c[k], unit + up);
+        octave.c[DEGREE - k] = rounded(c[k], lsb_exponent);
         k -= 1;
     }
-    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * lsb, unit);
+    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * lsb, unit_exponent);
     // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
     if middle.unsigned_abs() > 1 << 62 {
         return None;
@@ -75,7 +75,7 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
     octave.factor = if path.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,
-        middle_time: middle as f64 * power_of_two_f64(unit),
+        middle_time: middle as f64 * power_of_two_f64(unit_exponent),
         lsb,
         slope_bound_lsb: slope_bound / lsb as f32,
         truncation_lsb: HALF_TRUNCATION + UNITS_OFF / factor as f32,

@@ -22,7 +22,7 @@ pub(crate) const JOIN_OFF: f32 = 3.0 / (1u64 << 53) as f32;
 /// roundings of an `f64`.
 // proofs/certificate.py
 pub(crate) const FRACTION_OFF: f32 = 1.0 / (1u64 << 36) as f32;
-/// The greatest offset, in widths; a word ends at 1/2.
+/// The greatest offset, in widths. A word ends at 1/2; the rest is for what single precision rounds.
 // proofs/octaves.py
 const MOST_OFFSET: f32 = 0.4999;
 /// How far off a time may be on a path, as a share of it: it is a sum of terms up to 14 times as great
@@ -76,11 +76,11 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
     // by 1/2 and a trace.
     let noise = per_lsb.rounding_lsb + 0.5002 * slope_bound_lsb * per_position as f32;
     // Half of the points are mostly enough.
-    let half = per_lsb.bounds(errors(octave, &position, &time, &per_lsb.backward, noise, 2));
+    let half = per_lsb.bounds(errors(octave, &position, &time, &per_lsb.backward, noise, false));
     if half.are_certain() {
         return half;
     }
-    per_lsb.bounds(errors(octave, &position, &time, &per_lsb.backward, noise, 1))
+    per_lsb.bounds(errors(octave, &position, &time, &per_lsb.backward, noise, true))
 }
 
 /// What an error in time of one lsb comes to, over the limits of [`ErrorOverLimit`], and what [`bounds`](Self::bounds)

@@ -3,10 +3,13 @@
 use crate::fixed::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
 use crate::octave::SHIFT_MASK;
 
-/// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. If it halves
-/// nothing, `half` is at most a quarter of the top, which is at most 15/8 of the power. A word of offsets ends at 0.5
-/// width. Of the 0.02 between, the center's error takes 0.009: `middle` is rounded by 2⁸ positions, the shift takes the
-/// place of 31, and a position is at most 2¹⁷ offsets.
+/// [`Span::new`] halves `width` while `half <= FILLED * width`. A word of offsets ends at 1/2 width, and holds
+///
+/// | at most, in widths | |
+/// |---|---|
+/// | 0.48 | `half` after a halving |
+/// | 0.47 | or without one: a quarter of the top, which is at most 15/8 of the power |
+/// | 0.009 | what the center is off: 2⁸ positions as `middle` is rounded, 31 for the shift, of 2¹⁷ offsets each |
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_SHIFT: u32 = 17;

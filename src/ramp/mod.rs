@@ -19,6 +19,11 @@ const MASS_SHIFT: u32 = 9;
 /// Those of a way count `2^WAY_SHIFT` fine units: they are up to six times as great as the interval.
 const WAY_SHIFT: u32 = 3;
 
+/// In [`Ramp::place_of_time`] a way errs by at most `2^-TIME_SHIFT` of the time, and this many fine units. The share is
+/// of a time in units, which are one fine unit each or more: so it is a quarter ulp of the time or less.
+const TIME_SHIFT: u32 = 26;
+const LEAST_WAY_ERROR: i64 = 32;
+
 /// One Bezier as a part of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ramp {
@@ -76,7 +81,7 @@ impl Ramp {
         let (from, sought) = if part <= rest { (side, part) } else { (side.other(), rest) };
         let (place, evaluations) = self.mass_since(from).solve(sought, error);
         let way = Series { c: &self.way_powers(from), shift: WAY_SHIFT }.at(place);
-        // Never beyond an end.
+        // What is cut of the coefficients could lead beyond an end.
         let [d0, d1, d2] = self.differences;
         let length = (d0 + d1 + d2) << WAY_SHIFT;
         let way = if way < length { way } else { length };
@@ -85,14 +90,16 @@ impl Ramp {
         (if from.is_end() { end - way } else { end + way }, evaluations)
     }
 
-    /// The place of a time on the ramp, in units, within an error of its way, in fine units; counted from the end that
-    /// is nearer in time, which comes first.
+    /// The place of a time on the ramp, counted from the end that is nearer in time, which comes first.
     #[inline(never)]
-    pub(crate) const fn place_of_time(&self, time_units: i64, error: i64, units: Units) -> (Side, u64) {
-        let [way, rest] = [time_units - units.of(self.ends[0]), units.of(self.ends[1]) - time_units];
-        let (from, way) = if way <= rest { (Side::Start, way) } else { (Side::End, rest) };
+    pub(crate) const fn place_of_time(&self, t: f32, units: Units) -> (Side, u64) {
+        let [start, end] = self.ends;
+        // As `t` grows this changes once, though both differences are rounded.
+        let from = Side::end_if(t - start > end - t);
+        let time = units.of(t);
+        let way = (time - units.of(self.end_time(from))).abs();
         let ways = Series { c: &self.way_powers(from), shift: WAY_SHIFT };
-        (from, ways.solve(units.refined(way), error).0)
+        (from, ways.solve(units.refined(way), (time.abs() >> TIME_SHIFT) + LEAST_WAY_ERROR).0)
     }
 
     /// The part of the exposure between the end that faces a side and a place.

@@ -84,8 +84,8 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
 pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>) -> u32 {
     let [first, last] = [inverse.least_direct(Side::Start), inverse.least_direct(Side::End)];
     let least = if first > last { first } else { last };
-    // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed, with a slack of 2⁻²⁴, as
-    // fractions are rounded to `f32`. In 2⁻⁶⁴; saturating shows the compiler that the divisor is not 0.
+    // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed. As fractions are rounded to
+    // `f32`, 2⁻²⁴ is added, which is 2⁴⁰ in 2⁻⁶⁴. That it saturates shows the compiler that the divisor is not 0.
     let most = (1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40);
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
@@ -119,7 +119,7 @@ pub(crate) struct TickScale {
     up: u32,
     /// The rate, moved up until it has 32 bits.
     rate: u32,
-    /// The bits by which `delay · rate / 2³²` moves down to half ticks, where both are moved up.
+    /// By so many bits `delay · rate / 2³²`, of both moved up, moves down to half ticks.
     down: u32,
 }
 

@@ -78,15 +78,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// The tick at which the shutter is closed, at most 2³¹. No trigger or pulse is later.
     ///
-    /// A 16-bit timer can tell whether a tick is still to come if this is at most 2¹⁵:
-    ///
-    /// ```
-    /// use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
-    /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// const FLASH: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000)));
-    /// const _: () = assert!(FLASH.length() <= 1 << 15);
-    /// assert_eq!(FLASH.length(), 10_000);
-    /// ```
+    /// A 16-bit timer can tell whether a tick is still to come if this is at most 2¹⁵. A constant can check that:
+    /// `const _: () = assert!(FLASH.length() <= 1 << 15);`
     #[must_use]
     pub const fn length(&self) -> u32 {
         self.scale.length(self.inverse)
@@ -128,14 +121,6 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     }
 
     /// The ticks of a frame of `n` triggers, in a `heapless::Vec`. This needs the feature `heapless-v0_9`.
-    ///
-    /// ```
-    /// use shutter_curve::{Hz, ShutterCurve, expect};
-    /// let curve: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// let ticks: heapless::Vec<u32, 16> = curve.at(Hz(1_000_000))?.ticks_vec(5)?;
-    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
-    /// # Ok::<(), shutter_curve::ScheduleError>(())
-    /// ```
     ///
     /// # Errors
     /// Returns a [`ScheduleError`] if `n` is above `N`, and the errors of [`ticks_into`](Self::ticks_into).
@@ -234,9 +219,9 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// How many ticks of the exposure each trigger needs, so that the next is surely `least` ticks later.
     ///
-    /// Openness is at most 1, so a share of the exposure takes at least its part of `exposure`, `E / n`. Each end errs
-    /// by 0.52 tick and by two ulp of its fraction, at most 2⁻²³ of `E` (accuracy.md). With the remainder of the
-    /// division, and a `part` that was rounded, 3 ticks and 2⁻²¹ of `E` are enough.
+    /// Openness is at most 1, so a share of the exposure takes at least its part of `exposure`, `E / n`. Two ends err
+    /// by 0.52 tick each, and by two ulp of a fraction, 2⁻²³ of `E` (accuracy.md); a rounded `part` by 2⁻²⁴ of `E`. So
+    /// 2 ticks and 2⁻²¹ of `E` are enough, and a tick for what the shift cuts of that.
     const fn room(&self, least: u32) -> u32 {
         least.saturating_add(3 + (self.exposure >> 21))
     }
