@@ -10,6 +10,7 @@ mod rust;
 
 pub use name::{identifier, module};
 use serde::Deserialize;
+use serde_json::Value;
 
 use crate::facts::{self, Facts};
 use crate::lamp::{Lamp, SetUp};
@@ -52,7 +53,7 @@ pub fn emit(form: Form, name: &str, plan: &Plan, curve: bool) -> Result<String, 
         Form::Rust => rust::module(&Module::new(name, plan), curve),
         Form::C => c::header(&Module::new(name, plan)),
         Form::Csv => csv::rows([(name, plan)]),
-        Form::Json => json::object(name, plan),
+        Form::Json => format!("{:#}\n", json::object(name, plan)),
     })
 }
 
@@ -74,7 +75,10 @@ pub fn several(form: Form, name: &str, plans: &[(String, Plan)], curve: bool) ->
         Form::Rust => rust::modules(name, &modules(), curve),
         Form::C => c::headers(name, &modules()),
         Form::Csv => csv::rows(plans.iter().map(|(name, plan)| (name.as_str(), plan))),
-        Form::Json => json::array(plans),
+        Form::Json => {
+            let all: Value = plans.iter().map(|(name, plan)| json::object(name, plan)).collect();
+            format!("{all:#}\n")
+        }
     })
 }
 

@@ -1,5 +1,6 @@
 //! A scene: a shutter, which a fit writes as a whole, and the flashes, which are their user's.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
@@ -171,11 +172,7 @@ impl Shutter {
 
     /// As a table of a scene's text, with its checksum where it was measured: its own, or the one that it has.
     pub fn text(&self) -> String {
-        #[derive(Serialize)]
-        struct Table<'a> {
-            shutter: &'a Shutter,
-        }
-        let text = toml::to_string(&Table { shutter: self }).expect("numbers and texts are TOML");
+        let text = toml::to_string(&BTreeMap::from([("shutter", self)])).expect("numbers and texts are TOML");
         let lacks_sum = self.measured.as_ref().is_some_and(|it| it.checksum.is_none());
         if lacks_sum { format!("{text}{CHECKSUM}\"{}\"\n", checksum(&text)) } else { text }
     }

@@ -2,7 +2,6 @@
 
 use std::io::Write;
 use std::iter::once;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -372,10 +371,10 @@ fn write(
     let mut olds = olds.into_iter();
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
-        let unit = old.as_ref().map(|old| old.scene.shutter.unit());
+        let unit = old.as_ref().map(|(scene, _)| scene.shutter.unit());
         let (shutter, zero) = fitted::shutter(fit, name, args.zero, unit)
             .map_err(|refusal| format!("{name}: {}", refusal.with_option()))?;
-        if let Some(old) = old.as_ref().map(|old| &old.scene.shutter) {
+        if let Some(old) = old.as_ref().map(|(scene, _)| &scene.shutter) {
             for (key, option, was, is) in
                 [("nominal", "--nominal", old.nominal, shutter.nominal), ("delay", "--sync", old.delay, shutter.delay)]
             {
@@ -387,7 +386,7 @@ fn write(
             }
         }
         let text = match old {
-            Some(old) => old.with(&shutter.text()),
+            Some((_, around)) => around.join(&shutter.text()),
             None => shutter.text() + &fitted::flashes(&shutter, fit.triggers.len()),
         };
         let scene = Scene::parse(&text).map_err(|fault| fault.locate(name, &text))?;
@@ -423,7 +422,7 @@ fn write(
 
 /// As many as an older scene has.
 fn triggers(old: Option<&Option<Old>>) -> Option<u32> {
-    let Old { scene, .. } = old?.as_ref()?;
+    let (scene, _) = old?.as_ref()?;
     let own = scene.flashes.triggers.map(|n| n as u32).filter(|n| (1..=MOST_TRIGGERS).contains(n));
     own.or(scene.shutter.trigger_times.as_ref().map(|times| times.len() as u32))
 }
@@ -446,20 +445,8 @@ fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
     format!("next: shutter plan{plan}{lacks} --emit rust --to{to}\n")
 }
 
-/// A scene that is there, whose shutter is replaced.
-struct Old {
-    text: String,
-    scene: Scene,
-    at: Range<usize>,
-}
-
-impl Old {
-    /// The whole with another shutter.
-    fn with(self, shutter: &str) -> String {
-        let Self { text, at, .. } = self;
-        format!("{}{shutter}{}", &text[..at.start], &text[at.end..])
-    }
-}
+/// A scene that is there, and what stands before and behind its shutter, which is replaced.
+type Old = (Scene, [String; 2]);
 
 /// The scene that is where one is to be written, if its shutter is one that a fit wrote, or is replaced by force.
 fn old(args: &Args, outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
@@ -487,7 +474,7 @@ fn old(args: &Args, outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, S
             "{name}: --triggers {asked}: it has triggers = {has} below [flashes], which are yours: change it there"
         ));
     }
-    Ok(Some(Old { text, scene, at }))
+    Ok(Some((scene, [text[..at.start].into(), text[at.end..].into()])))
 }
 
 /// One object, or an array of those of several.

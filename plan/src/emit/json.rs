@@ -5,20 +5,6 @@ use serde_json::{Map, Value, json};
 use crate::facts::Facts;
 use crate::plan::Plan;
 
-/// A plan's object.
-pub fn object(scene: &str, plan: &Plan) -> String {
-    text(&document(scene, plan))
-}
-
-/// An array of the objects of several plans.
-pub fn array(plans: &[(String, Plan)]) -> String {
-    text(&plans.iter().map(|(scene, plan)| document(scene, plan)).collect())
-}
-
-fn text(json: &Value) -> String {
-    format!("{json:#}\n")
-}
-
 /// The numbers that every plan has, or has as null.
 const KEYS: [&str; 17] = [
     "set_up",
@@ -40,7 +26,8 @@ const KEYS: [&str; 17] = [
     "direct_triggers",
 ];
 
-fn document(scene: &str, plan: &Plan) -> Value {
+/// A plan's object.
+pub fn object(scene: &str, plan: &Plan) -> Value {
     let Facts { facts, doubts } = Facts::new(plan);
     let mut numbers = shutter_fit::fact::numbers(&facts);
     let mut all = Map::new();
