@@ -2,7 +2,7 @@
 
 use super::asked::Options;
 use super::heads::Heads;
-use super::names::{Said, said};
+use super::names::{Means, said};
 use super::numbers::{Cell, short_of};
 use super::reading::{Clock, Reading, Told};
 use super::samples::{LARGEST, median};
@@ -115,17 +115,18 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    fn said(&self, k: usize) -> Said {
+    fn said(&self, k: usize) -> Option<Means> {
         match said(self.table.heads.label(k)) {
-            Said::Unit(unit) => Said::Unit(unit),
-            _ if self.table.is_clock(k) => Said::Unit(Unit::Second),
+            Some(Means::In(unit)) => Some(Means::In(unit)),
+            _ if self.table.is_clock(k) => Some(Means::In(Unit::Second)),
             other => other,
         }
     }
 
     fn counts(&self, k: usize) -> bool {
         let said = self.said(k);
-        !matches!(said, Said::Unit(_)) && (is_counter(&self.table.first(k)) || said == Said::Count && self.runs(k))
+        !matches!(said, Some(Means::In(_)))
+            && (is_counter(&self.table.first(k)) || said == Some(Means::Count) && self.runs(k))
     }
 
     /// Do the numbers go one way, as times do and a pulse does not? They may begin anew with each of some shots.
@@ -142,7 +143,7 @@ impl Columns<'_> {
     fn against(&self, rate: f64) -> Option<String> {
         let mut columns = self.table.columns.iter().copied();
         let (k, unit) = columns.find_map(|k| match self.said(k) {
-            Said::Unit(unit) if self.runs(k) => Some((k, unit)),
+            Some(Means::In(unit)) if self.runs(k) => Some((k, unit)),
             _ => None,
         })?;
         let usual = unit.seconds(usual_step(&self.table.first(k))?);
@@ -161,7 +162,7 @@ impl Columns<'_> {
             let reason = format!("beside column {} no other holds a signal", self.table.heads.quoted(sync));
             return Err(Refusal::NoDelay { reason });
         }
-        let is_time = |k: usize| matches!(self.said(k), Said::Time | Said::Unit(_));
+        let is_time = |k: usize| matches!(self.said(k), Some(Means::Time | Means::In(_)));
         let is_signal = |k: &usize| !(self.counts(*k) || is_time(*k) && self.runs(*k));
         let signals: Vec<usize> = others.iter().copied().filter(is_signal).collect();
         let found = [signals, others].into_iter().find(|found| !found.is_empty());
@@ -177,9 +178,9 @@ impl Columns<'_> {
         let columns = || self.table.columns.iter().copied().filter(|k| !asked.contains(k));
         let running: Vec<usize> = columns().filter(|k| self.runs(*k)).collect();
         let find = |is: &dyn Fn(usize) -> bool| running.iter().copied().find(|k| is(*k));
-        let has_unit = |k: usize| matches!(self.said(k), Said::Unit(_));
+        let has_unit = |k: usize| matches!(self.said(k), Some(Means::In(_)));
         let named = find(&|k| has_unit(k) && !self.table.is_clock(k)).or_else(|| find(&has_unit));
-        let named = named.or_else(|| find(&|k| self.said(k) == Said::Time));
+        let named = named.or_else(|| find(&|k| self.said(k) == Some(Means::Time)));
         if named.is_some() {
             return Ok(named);
         }
@@ -218,12 +219,12 @@ impl Columns<'_> {
         let by_rate = step.as_ref().ok().and_then(|step| step.as_ref());
         let by_rate = by_rate.and_then(|(words, step)| Some((words.clone(), self.unit_of_steps(k, *step)?)));
         match (unit, self.said(k)) {
-            (Some(unit), Said::Unit(named)) if named != unit => {
+            (Some(unit), Some(Means::In(named))) if named != unit => {
                 return in_unit(unit, Told::Against(format!("its name says {}", named.name())));
             }
             (Some(unit), _) => return in_unit(unit, Told::Asked),
             // A rate that fits the steps in another unit says that one of the two is wrong.
-            (None, Said::Unit(unit)) => {
+            (None, Some(Means::In(unit))) => {
                 return match by_rate.filter(|(_, other)| *other != unit) {
                     Some((second, _)) => Err(Refusal::TwoRates { first: table.heads.quoted(k), second }),
                     None => in_unit(unit, Told::Name),
@@ -244,7 +245,8 @@ impl Columns<'_> {
         let is_timer =
             first.iter().all(|t| t.fract() == 0.0) && !first.windows(2).any(|pair| (pair[1] - pair[0]).abs() == 1.0);
         let (label, counts) = (table.heads.label(k), counts || is_timer);
-        if self.said(k) == Said::Other && (!counts || label.contains(['(', '['])) {
+        let is_other = self.said(k).is_none() && !label.is_empty();
+        if is_other && (!counts || label.contains(['(', '['])) {
             return Err(Refusal::UnclearUnit { name: short_of(label) });
         }
         if counts {

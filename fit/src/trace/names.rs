@@ -102,18 +102,6 @@ pub fn setting(name: &str) -> Option<Means> {
     meaning(&name).or_else(|| meaning(&(name + "s"))).filter(is_one)
 }
 
-/// What the name of a column says of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Said {
-    Nothing,
-    /// It holds times, in a unit that is not told.
-    Time,
-    Unit(Unit),
-    Count,
-    /// It holds something else, or times in a unit that is not read, as `min` or `s/div`.
-    Other,
-}
-
 /// What stands in the last brackets of a name, and what before.
 fn parts(name: &str) -> (&str, Option<&str>) {
     let name = name.trim();
@@ -124,8 +112,9 @@ fn parts(name: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// What the name of a column says: by a unit in brackets, or where each of its words is a time's or a unit.
-pub fn said(name: &str) -> Said {
+/// What the name of a column says, by a unit in brackets, or where each of its words is a time's or a unit: it holds
+/// times, perhaps in a unit, or counts. None of something else, or of times in a unit that is not read, as `min`.
+pub fn said(name: &str) -> Option<Means> {
     let (name, inside) = parts(name);
     let all = words(name);
     if let Some(unit) = inside {
@@ -134,18 +123,15 @@ pub fn said(name: &str) -> Said {
             word == "per" || word == "div" || word.strip_prefix('x').is_some_and(|x| x.starts_with(char::is_numeric))
         };
         let is_plain = !name.contains(['*', '×', '/']) && !all.iter().any(is_factor);
-        return unit_of(unit).filter(|_| is_plain).map_or(Said::Other, Said::Unit);
+        return unit_of(unit).filter(|_| is_plain).map(In);
     }
-    if all.is_empty() {
-        return if name.is_empty() { Said::Nothing } else { Said::Other };
-    }
-    let mut said = Said::Time;
+    let mut said = None;
     for word in &all {
-        match (meaning(word), said) {
-            (Some(Time), _) => (),
-            (Some(In(unit)), Said::Time) => said = Said::Unit(unit),
-            (Some(Count), _) if all.len() == 1 => said = Said::Count,
-            _ => return Said::Other,
+        said = match (meaning(word)?, said) {
+            (Time, said) => said.or(Some(Time)),
+            (In(unit), None | Some(Time)) => Some(In(unit)),
+            (Count, None) if all.len() == 1 => Some(Count),
+            _ => return None,
         }
     }
     said

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::heads::Heads;
-use super::names::{Means, Said, is_unit, said, setting, unit_of};
+use super::names::{Means, is_unit, said, setting, unit_of};
 use super::numbers::{Cell, Form, counted_on, is_grouped, short_of};
 use super::settings::Settings;
 use super::told::Refusal;
@@ -233,7 +233,7 @@ impl<'a> Table<'a> {
             let cells = || self.columns.iter().filter_map(|k| fields.get(*k)).filter(|field| !field.is_empty());
             // Beside a time's name, a channel's may be a number.
             let is_channel = |field: &str| field.len() < 4 && field.bytes().all(|b| b.is_ascii_digit());
-            let is_time = cells().next().is_some_and(|first| said(first) == Said::Time);
+            let is_time = cells().next().is_some_and(|first| said(first) == Some(Means::Time));
             let is_name = |field: &String| self.form.cell(field) == Cell::Word || is_time && is_channel(field);
             let is_setting = setting(&fields[0]).is_some_and(|means| means != Means::Names);
             fields.len() > last && 2 * cells().count() > self.columns.len() && cells().all(is_name) && !is_setting

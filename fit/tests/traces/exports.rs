@@ -74,33 +74,22 @@ type Export = (&'static str, &'static str, &'static str, &'static str);
 /// By its instrument, each name that is read is in `names.rs`, and read in `words.rs`: here is what else differs.
 #[rustfmt::skip]
 const EXPORTS: &[Export] = &[
-    // Oscilloscopes: Rigol DS1000Z, MSO5000, DS2000A, DHO800.
+    // Oscilloscopes: Rigol DS1000Z, MSO5000.
     ("X,CH1,Start,Increment,\nSequence,VOLT,-6.000000e-03,1.000000e-05\n", "{i},{e},,", "",
         "2 100000 samples a second, by 'Increment 1.000000e-05', the first at -6 ms"),
     ("X,CH1,Start,Increment,\nSequence,Volt,-6.000ms,10.000us,\n", "{i},{e},,", "", "2 the first at -6 ms"),
-    ("Time,CH1\n", "{T},{e}", "", "2 in s, assumed|unit_assumed"),
-    ("CH1V,t0 =-6.000000e-03, tInc = 1.000000e-05,\n", "{e},,", "", "!'CH1V,t0 =-6"),
     // Siglent: the unit of a scale is none of a step's.
     ("Record Length,Analog:1200\nSample Interval,Analog:0.0000100\nVertical Units,CH1:V\nHorizontal Units,us\n\
         Horizontal Scale,0.001\nModel Number,SDS1104X-E\nSource,CH1\nSecond,Volt\n", "{T},{v}", "",
         "2 in s, by its name"),
-    ("Sample Interval,0.0000100\nHorizontal Units,us\nHorizontal Scale,500\nSource,CH1\n", "{v}", "",
-        "1 100000 samples a second, by 'Sample Interval"),
-    ("Record Length,1200,Points\nSample Interval,0.00001,s\nTrigger Point,600,Samples\nSource,CH1\n", "{-t},{v}", "",
-        "2 in s, by 'Sample Interval,0.00001,"),
-    // Tektronix: settings beside the rows, none, and above them.
+    // Tektronix: settings beside the rows, none, and a step without a unit of the times.
     ("", "{set},,{-t},  {v},", "", "5 in s, by 'Sample Interval,1e-05"),
     ("", "{-t},{v}", "", "2 in s, assumed|unit_assumed"),
-    ("Model,DPO2014\nPoint Format,Y,\nHorizontal Units,S,\nHorizontal Scale,0.001,\nSample Interval,1e-05,\n\
-        Filter Frequency,1.5e+06\nVertical Units,V,\nLabel,,\nTIME,CH1\n", "{T},{v}", "",
-        "2 in s, by 'Sample Interval,1e-05"),
     ("Sample Interval,1e-05\n", "{ms},{v}", "", "2 in ms, by 'Sample Interval"),
-    // Keysight: a channel that was recorded for a part, and Infiniium.
+    // Keysight: a channel that was recorded for a part.
     ("x-axis, 1, 2\nsecond, Volt, Volt\n", "{T}, {early}, {z}", "", "2 in s, by its name"),
     ("x-axis,1\nsecond,Volt\n", "{T},{late}", "", "2 in s, by its name"),
-    ("Revision:,0\nStart:,0\nPoints:,1200\nXInc:,1.0E-05\nXOrg:,-6.0E-03\nXUnits:,Second\nYUnits:,Volt\nData:\n",
-        "{T},{v}", "", "2 in s, by 'XUnits:,Second'"),
-    // LeCroy, Yokogawa, GW Instek, Fluke, OpenHantek, Hantek, PicoScope, WaveForms, Red Pitaya, BitScope.
+    // LeCroy, Yokogawa, GW Instek, OpenHantek, Hantek, PicoScope, Red Pitaya, BitScope.
     ("LECROYWR62Xi,1234,Waveform\nSegments,1,SegmentSize,1200\nSegment,TrigTime,TimeSinceSegment1\n\
         #1,18-Mar-2024 10:00:00,0\nTime,Ampl\n", "{T},{v}", "", "2 column 1, \"Time\" in s, assumed|unit_assumed"),
     ("\"TraceName\",\"CH1\",\"CH2\"\n\"BlockSize\",1200,1200\n\"HResolution\",1.0E-05,1.0E-05\n\
@@ -108,16 +97,10 @@ const EXPORTS: &[Export] = &[
     ("\"HResolution\",1.0E-02\n\"HUnit\",\"ms\"\n\n", ",{e}", "", "!'HUnit,ms'"),
     ("Memory Length,1200\nHorizontal Units,S\nHorizontal Scale,1.0E-03\nSampling Period,1.0E-05\nFirmware,V1.20\n\
         Time,01-May-24 10:00:00\n", "{d},{adc},", "", "2 by 'Sampling Period,1.0E-05'|second_signal"),
-    ("Memory Length,1200,\nHorizontal Units,S,\nSampling Period,1.0E-05,\nMode,Detail,\nWaveform Data,,\n",
-        "{T},{v},", "", "2 column 1 in s, by 'Sampling Period"),
-    ("Title;Input A\nDate;01.05.2024\nTime;Input A\ns;V\n", "{T};{e}", "", "2 in s, by its name"),
     ("\"t / s\",\"CH1 / V\",\"CH2 / V\"\n", "{t},{g},{v}", "",
         "3 in s, by its name~: column 3, \"CH2 / V\" is taken~column 2, \"CH1 / V\" is not (--columns 1,2)|second_signal"),
     ("#CHANNEL:CH1\n#CLOCK=10.0uS\n#SIZE=1200\n#UNITS:V\n\n", "{v}", "", "!'#CLOCK=10.0uS'"),
     ("Temps;Voie A\n(µs);(mV)\n\n", "{,us};{,mv}", "", "2 in µs, by its name"),
-    ("#Digilent WaveForms Oscilloscope Acquisition\n#Date Time: 2024-05-01 10:00:00.123\n#Sample rate: 100000Hz\n\
-        #Trigger: Source: Channel 1 Type: Edge Level: 0.5 V HoldOff: 0 s\n\nTime (s),Channel 1 (V)\n", "{T},{v}", "",
-        "2 in s, by its name"),
     ("", "{v}", "", "!--rate 100000"),
     ("trigger,stamp,channel,index,type,delay,factor,rate,count,data\n", "0,10:20:30,0,0,0,0.0,1.0,100000,1200,{v}",
         "", "!"),
@@ -132,7 +115,6 @@ const EXPORTS: &[Export] = &[
     ("Interval=\t1E-05 s\nRange=\t2.000 V\nUnitName=\tV\n", "{t}\t{v}", "", "!--unit"),
     ("2 channels\nLight\nVolts\nmsec\tCH1\tCH2\t\n\t1200\t1200\t\n", "{ms}\t{v}\t{g}\t", "",
         "2 \"msec\" in ms, by its name|second_signal"),
-    ("Run 1: Time (ms),Run 1: Light (lx)\n", "{ms},{v}", "", "2 in ms, by its name"),
     ("Zeit  1 - Standardmessrate [s];Licht\n", "{,t};{,v}", "", "2 in s, by its name"),
     // Sketches, monitors, simulators; times of day.
     ("adc,t_us\n", "{adc},{us}", "", "1 in µs, by its name"),

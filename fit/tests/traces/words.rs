@@ -3,7 +3,7 @@
 use shutter_fit::unit::Unit;
 
 use crate::exports::{judge, rows};
-use crate::names::Said::{Count, Nothing, Other, Time, Unit as In};
+use crate::names::Means::{Count, In, Time};
 use crate::names::{KNOWN, Means, is_unit, said, words};
 
 #[test]
@@ -34,16 +34,16 @@ fn each_name_is_read_as_its_instrument_writes_it() {
 #[test]
 fn a_name_tells_a_time_its_unit_or_something_else() {
     for (told, names) in [
-        (In(Unit::Second), "Time (s);Zeit  1 - Standardmessrate [s];t / s;in s;Second;Time_s;Elapsed (s);[s]"),
-        (In(Unit::Millisecond), "TimeMs (ms);millis;Time in ms;Run 1: Time (ms);(ms)"),
-        (In(Unit::Microsecond), "micros();time_µs;t_μs;(us);Temps (µs)"),
-        (In(Unit::Nanosecond), "Time[ns];t_ns"),
-        (Time, "Time;TIME;t;X;x-axis"),
-        (Count, "Sequence"),
-        (Nothing, ""),
-        (Other, "Time (tenths of ms);Time (s/div);Time (h:m:s);Time (10us);Time x1000 (s);Time*1e6 (s);10us;tms"),
-        (Other, "Frequency (Hz);nm;deg;mm;Angle [°];λ (nm);Hz;CH1 (V);V/s;ms.A;ms/div;min;Time (min);t_us_x10;Zeit"),
-        (Other, "shutter 8 ms;/records/s.wav;TrigTime;Exposure time;X1;No.;time since start;V per div (s)"),
+        (Some(In(Unit::Second)), "Time (s);Zeit  1 - Standardmessrate [s];t / s;in s;Second;Time_s;Elapsed (s);[s]"),
+        (Some(In(Unit::Millisecond)), "TimeMs (ms);millis;Time in ms;Run 1: Time (ms);(ms)"),
+        (Some(In(Unit::Microsecond)), "micros();time_µs;t_μs;(us);Temps (µs)"),
+        (Some(In(Unit::Nanosecond)), "Time[ns];t_ns"),
+        (Some(Time), "Time;TIME;t;X;x-axis"),
+        (Some(Count), "Sequence"),
+        (None, ""),
+        (None, "Time (tenths of ms);Time (s/div);Time (h:m:s);Time (10us);Time x1000 (s);Time*1e6 (s);10us;tms"),
+        (None, "Frequency (Hz);nm;deg;mm;Angle [°];λ (nm);Hz;CH1 (V);V/s;ms.A;ms/div;min;Time (min);t_us_x10;Zeit"),
+        (None, "shutter 8 ms;/records/s.wav;TrigTime;Exposure time;X1;No.;time since start;V per div (s)"),
     ] {
         names.split(';').for_each(|name| assert_eq!(said(name), told, "{name}"));
     }
