@@ -100,7 +100,7 @@ function showForm({ text, reason, remedies = [] }) {
   const why = reason ? `: ${reason}` : '';
   if (!text) return render(html`<p>There is nothing to copy yet${why}.</p>${helps(remedies)}`, $('code'));
   // What is told of a plan in comments comes after what a firmware reads.
-  const [head] = /^(?:(?:\/\/|#(?!\[)|\/?\*| \*).*\n|\n)*/.exec(text);
+  const [head] = /^(?:\/\/(?!\/).*\n|\/\*[^]*?\*\/\n|\n)*/.exec(text);
   const lines = head.trim().split('\n').length;
   const summary = html`<summary>${lines} lines of comments, copied as well</summary>`;
   const folded = html`<details>${summary}${head.trimEnd()}</details>`;

@@ -225,7 +225,7 @@ function previewTable({ names, rows, read }) {
   const row = ([line, fields]) => html`<tr><td>${line}</td>
     ${names.map((_, i) => html`<td>${fields[i] ?? ''}</td>`)}</tr>`;
   return html`<div class="scroll" tabindex="0" role="region" aria-label="The first lines of the file">
-    <table class="preview"><thead><tr><th scope="col">line</th>${names.map(head)}</tr></thead>
+    <table class="preview" role="table"><thead><tr><th scope="col">line</th>${names.map(head)}</tr></thead>
     <tbody>${rows.map(row)}</tbody></table></div>`;
 }
 
