@@ -81,8 +81,8 @@ export function drawFacts(model, samples) {
   const [first] = facts.keys();
   const line = ([title, text]) => {
     const about = doubts.filter((it) => title === (facts.has(it.about) ? it.about : first));
-    // A time is not parted from its name, nor from its error.
-    const words = inWords(text).replace(/(?<=\bT\w+) | (?=[±%])|(?<=±) /g, '\u00a0');
+    // A file's name stays as it is; a time is not parted from its name, nor from its error.
+    const words = (title === 'trace' ? text : inWords(text)).replace(/(?<=\bT\w+) | (?=[±%])|(?<=±) /g, '\u00a0');
     // A channel that may be the sync's is asked for.
     const isAsked = title === 'delay' && fit && trace.file && trace.measured.names.length > 2 && !trace.asked.sync;
     const shown = title === 'exposure' ? html`<b>${words}</b>` : words;

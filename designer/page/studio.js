@@ -56,7 +56,9 @@ const [scenes, fits] = [new Asked(), new Asked()];
 function toml(it) {
   if (Array.isArray(it)) return `[${it.map(toml)}]`;
   if (Object(it) === it) return `{${entries(it).map(([key, value]) => `${key}=${toml(value)}`)}}`;
-  return Math.abs(it) < 1e15 || typeof it !== 'number' ? JSON.stringify(it) : it.toExponential();
+  if (typeof it !== 'number') return JSON.stringify(it);
+  // Its whole numbers end somewhere, and what is not finite has other names.
+  return Math.abs(it) < 1e15 ? String(it) : it.toExponential().toLowerCase().replace('inity', '');
 }
 const entries = (table) => Object.entries(table).filter(([, value]) => value != null);
 const text = (tables) => entries(tables).map(([key, value]) => `${key}=${toml(value)}`).join('\n');

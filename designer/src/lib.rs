@@ -9,8 +9,6 @@ mod engine;
 mod fits;
 #[cfg(feature = "studio")]
 mod studio;
-#[cfg(feature = "studio")]
-mod text;
 
 #[cfg(not(feature = "studio"))]
 pub use engine::{Question, View};
