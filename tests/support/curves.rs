@@ -1,7 +1,7 @@
 //! The curves and the `u` that the tests judge: the named ones of `tests/data/curves.csv`, and fresh
 //! ones drawn at random from a fixed seed.
 
-use shutter_curve::CubicBezier;
+use shutter_curve::{CubicBezier, CurveError, Part};
 
 use super::oracle::{Curve, Exact, Points, exp2};
 
@@ -348,31 +348,41 @@ pub const LEAST_INTERVAL: f64 = 1.0 / 65_536.0;
 pub const LEAST_SECTION: f64 = 1.0 / 16_777_216.0;
 pub const LEAST_EXPOSURE: f64 = 1.0 / 1_048_576.0;
 
+/// The first rule that a curve breaks.
+pub fn verdict(curve: &Curve) -> Result<(), CurveError> {
+    use CurveError as E;
+    let refused = |is_broken: bool, error| if is_broken { Err(error) } else { Ok(()) };
+    let span = |from: f32, to: f32| f64::from(to) - f64::from(from);
+    let [start, open, close, end] = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
+    let (length, greatest) = (span(start, end), f64::from(start.abs().max(end.abs())));
+    let ramps = [(curve.opening, Part::Opening), (curve.closing, Part::Closing)];
+    for (ramp, part) in ramps {
+        refused(!ramp.iter().all(|(t, f)| t.is_finite() && f.is_finite()), E::NotFinite(part))?;
+    }
+    refused(![start, open, close, end].is_sorted(), E::TimesOutOfOrder)?;
+    refused(length < LEAST_INTERVAL * greatest, E::IntervalUnresolved)?;
+    refused(!(exp2(-64)..=exp2(64)).contains(&length), E::IntervalOutOfRange)?;
+    for (from, to, part) in [(start, open, Part::Opening), (open, close, Part::Plateau), (close, end, Part::Closing)] {
+        refused(from != to && span(from, to) < LEAST_SECTION * greatest, E::TooShort(part))?;
+    }
+    for (ramp, part) in ramps {
+        let [from, first, second, to] = ramp.map(|(t, _)| t);
+        for (point, (t, f)) in (0..).zip(ramp) {
+            refused(!(from..=to).contains(&t), E::TimeOutsideRamp { part, point })?;
+            refused(!(0.0..=1.0).contains(&f), E::OpennessOutOfRange { part, point })?;
+        }
+        refused(span(second, first) > MOST_CROSSED * span(from, to), E::TimesCross(part))?;
+    }
+    let is_density = open == close && (start == open || close == end);
+    let meets = |ramp: Points, at: usize| !is_density && ramp[0].0 != ramp[3].0 && ramp[at].1 != 1.0;
+    refused(meets(curve.opening, 3), E::NotFullyOpen(Part::Opening))?;
+    refused(meets(curve.closing, 0), E::NotFullyOpen(Part::Closing))?;
+    refused(Exact::new(curve).area().hi < LEAST_EXPOSURE * length, E::DensityTooSmall)
+}
+
 /// Is this a curve that the library promises to accept?
 pub fn is_valid(curve: &Curve) -> bool {
-    let [start, open, close, end] = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
-    let span = |from: f32, to: f32| f64::from(to) - f64::from(from);
-    let (length, greatest) = (span(start, end), f64::from(start.abs().max(end.abs())));
-    let numbers = curve.opening.into_iter().chain(curve.closing).flat_map(|(t, f)| [t, f]);
-    let in_box = |ramp: Points| {
-        let times = ramp.map(|(t, _)| t);
-        times.iter().all(|t| times[0] <= *t && *t <= times[3])
-            && ramp.iter().all(|(_, f)| (0.0..=1.0).contains(f))
-            && span(times[2], times[1]) <= MOST_CROSSED * span(times[0], times[3])
-    };
-    let has_length = |from, to| span(from, to) >= LEAST_SECTION * greatest;
-    let is_density = open == close && (start == open || close == end);
-    let is_open = |from, to, f| from == to || is_density || f == 1.0;
-    numbers.into_iter().all(f32::is_finite)
-        && [start, open, close, end].is_sorted()
-        && length >= LEAST_INTERVAL * greatest
-        && (exp2(-64)..=exp2(64)).contains(&length)
-        && [(start, open), (open, close), (close, end)].iter().all(|(a, b)| a == b || has_length(*a, *b))
-        && in_box(curve.opening)
-        && in_box(curve.closing)
-        && is_open(start, open, curve.opening[3].1)
-        && is_open(close, end, curve.closing[0].1)
-        && Exact::new(curve).area().hi >= LEAST_EXPOSURE * length
+    verdict(curve).is_ok()
 }
 
 /// So many neighbours of `x` on either side, and `x`, from 0 to 1.
