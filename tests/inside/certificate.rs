@@ -1,4 +1,4 @@
-//! How octaves are fitted: the nodes, and that a certificate is never below the truth.
+//! A certificate is never below the truth.
 
 use crate::exposure::Exposure;
 use crate::fixed::{WORD, fixed_down, power_of_two_f64};
@@ -8,28 +8,12 @@ use crate::inside::support::curves::{Rng, named, random_hard, random_typical};
 use crate::inside::support::oracle::{Curve, Dd, Exact, ulp_f32};
 use crate::inside::support::times;
 use crate::octave::build::{build, range};
-use crate::octave::candidate::{Candidate, NODES, candidate};
+use crate::octave::candidate::{Candidate, candidate};
 use crate::octave::certificate::{ErrorOverLimit, FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, ULP_ERROR, certificate};
 use crate::octave::path::{Path, Stretch, value};
 use crate::octave::span::Span;
-use crate::octave::{DEGREE, Octave, top_at};
+use crate::octave::{Octave, top_at};
 use crate::ramp::bezier::CubicBezier;
-
-/// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
-fn chebyshev(x: f64) -> f64 {
-    let (mut last, mut value) = (1.0, x);
-    for _ in 0..DEGREE {
-        (last, value) = (value, 2.0 * x * value - last);
-    }
-    value
-}
-
-/// The nodes are its roots.
-#[test]
-fn nodes_are_those_of_chebyshev() {
-    assert!(NODES.iter().all(|node| chebyshev(f64::from(*node)).abs() < 1e-5));
-    assert!(NODES.is_sorted_by(|a, b| a < b));
-}
 
 /// The greatest share of a bound that the truth comes to: relative to the time, and in light.
 #[derive(Debug, Default)]

@@ -2,8 +2,8 @@
 
 use crate::exposure::Exposure;
 use crate::fixed::{
-    LINE_FROM, ONE, WORD, fixed_down, fixed_towards_0, floor_bits, in_2_60, power_of_two, power_of_two_f64, single,
-    times, times_up,
+    LINE_FROM, WORD, fixed_down, fixed_towards_0, floor_bits, in_2_60, power_of_two, power_of_two_f64, single, times,
+    times_up,
 };
 use crate::fraction::{Fraction, Side};
 use crate::inside::support::curves::{Rng, named, random_hard, random_typical};
@@ -320,37 +320,13 @@ fn a_fraction_next_to_a_join_is_on_its_own_part() {
             if bits > 0 && a < 1.0 {
                 let found = match inverse.section(side, bits as u32) {
                     Section::Line(_) => 1,
-                    Section::Ramp(ramp) => {
-                        if ramp == side {
-                            0
-                        } else {
-                            2
-                        }
-                    }
+                    Section::Ramp(ramp) => 2 * usize::from(ramp != side),
                 };
                 let part = if a > far { 2 } else { usize::from(a > near) };
                 assert_eq!(found, part, "{a:e} of {joins:?}");
             }
         }
     }
-}
-
-/// A search rounds its fraction to the nearest multiple of 2⁻⁴⁶: on a box the time is that share of its length.
-#[test]
-fn a_search_rounds_its_fraction_to_the_grid() {
-    let [opening, closing] = [0.0, 1.0].map(|t| CubicBezier::new([(t, 1.0); 4]));
-    let exposure = Exposure::new(&opening, &closing).expect("a box");
-    let mut rng = Rng::new(97, 0);
-    for _ in 0..10_000 {
-        let a = fraction(&mut rng) * power_of_two(-(rng.below(30) as i32));
-        let grid = (f64::from(a) * power_of_two_f64(46) + 0.5).floor() / power_of_two_f64(46);
-        let [from_start, from_end] =
-            Side::BOTH.map(|side| exposure.time_units(Fraction { side, bits: a.to_bits() }).0 as f64);
-        let one = exposure.in_units(1.0) as f64;
-        assert!((from_start - grid * one).abs() <= 2.0, "{a:e}");
-        assert!((one - from_end - grid * one).abs() <= 1024.0, "{a:e}");
-    }
-    assert_eq!(exposure.ramp(Side::Start).share + exposure.plateau() + exposure.ramp(Side::End).share, ONE);
 }
 
 /// A tick is the nearest one to the exact product of delay and rate; and a rate is accepted as long as the interval has

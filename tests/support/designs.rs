@@ -5,76 +5,55 @@
 use shutter_curve::CubicBezier;
 
 use super::curves::{Rng, Shape, accepted, placed, settled, shape};
-use super::oracle::{Curve, Points, exp2};
-use super::promise::Reach;
+use super::oracle::Curve;
 
-/// Designs of one kind: their name, how many are tried, what is asked of them, with every number of octaves or with
-/// few, and how one is drawn.
-pub struct Family {
-    pub name: &'static str,
-    pub designs: u64,
-    pub reach: Reach,
-    pub all_octaves: bool,
-    draw: fn(&mut Rng) -> Curve,
+/// What designs are drawn, how many are tried, and how one is drawn.
+type Family = (&'static str, u64, fn(&mut Rng) -> Curve);
+
+/// Design `index` of a family.
+pub fn design(family: usize, index: u64) -> Curve {
+    accepted(DESIGNS[family].2(&mut Rng::new(58, index)))
 }
 
-impl Family {
-    pub fn design(&self, index: u64) -> Curve {
-        accepted((self.draw)(&mut Rng::new(58, index)))
-    }
-}
-
-const fn family(name: &'static str, designs: u64, draw: fn(&mut Rng) -> Curve) -> Family {
-    let reach = Reach { denominator: 64, frame: 40, turn: 0, is_typical: false };
-    Family { name, designs, reach, all_octaves: false, draw }
-}
-
-pub const DESIGNS: [Family; 8] = [
-    family("whole ms", 45, |rng| {
+pub const DESIGNS: [Family; 5] = [
+    // In whole ms, the same in s, or in another unit; some far from time 0, or never dark, in tenths.
+    ("whole ms", 118, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
-        shutter_of(rng, lengths, ramp, 1.0)
-    }),
-    family("ms in s", 40, |rng| {
-        let lengths = [length(rng), length(rng), length(rng)];
-        shutter_of(rng, lengths, ramp, 1000.0)
-    }),
-    family("decimal fractions of the interval", 40, decimal),
-    // From either side.
-    family("joins at k/2^m", 55, |rng| {
-        let all = exp2(1 + rng.below(6) as i32);
-        joined_at(rng, all)
-    }),
-    family("joins at k/3, k/5, k/10", 45, |rng| {
-        let all = [3.0, 5.0, 10.0, 6.0, 7.0, 9.0, 12.0, 20.0, 100.0][rng.below(9) as usize];
-        joined_at(rng, all)
-    }),
-    Family {
-        all_octaves: true,
-        ..family("joins at any, handles to the end", 8, |rng| {
-            let all = [2.0, 4.0, 8.0, 16.0, 32.0, 3.0, 5.0, 10.0][rng.below(8) as usize];
-            let part = whole(rng, 1, all as u64 - 1);
-            let lengths = lengths(rng, part, all);
-            shutter_of(rng, lengths, symmetric, 1.0)
-        })
-    },
-    // Far from time 0, and shutters that are never dark, in tenths.
-    family("other units and levels", 33, |rng| {
-        let lengths = [length(rng), length(rng), length(rng)];
-        let units = [1e-3, 1e-6, 1e-9, 1e6, 60.0, 3600.0, 3.0, 7.0][rng.below(8) as usize];
-        let shapes: fn(&mut Rng, f64) -> Shape = if rng.chance(0.5) { ramp } else { symmetric };
+        let units = match rng.below(3) {
+            0 => 1.0,
+            1 => 1000.0,
+            _ => [1e-3, 1e-6, 1e-9, 1e6, 60.0, 3600.0, 3.0, 7.0][rng.below(8) as usize],
+        };
+        let shapes: fn(&mut Rng, f64) -> Shape = if rng.chance(0.8) { ramp } else { symmetric };
         let Curve { mut opening, mut closing } = shutter_of(rng, lengths, shapes, units);
         let length = f64::from(closing[3].0 - opening[0].0);
-        let far = [0.0, 0.0, 1.0, 100.0, 1e4, -1e4][rng.below(6) as usize];
-        let later = (far * length).round();
-        let low = if rng.chance(0.3) { whole(rng, 0, 10) / 10.0 } else { 0.0 };
+        let far = if rng.chance(0.2) { [1.0, 100.0, 1e4, -1e4][rng.below(4) as usize] } else { 0.0 };
+        let low = if rng.chance(0.1) { whole(rng, 0, 10) / 10.0 } else { 0.0 };
         for (t, f) in opening.iter_mut().chain(&mut closing) {
-            *t = (f64::from(*t) + later) as f32;
+            *t = (f64::from(*t) + (far * length).round()) as f32;
             *f = (low + (1.0 - low) * f64::from(*f)) as f32;
         }
         settled(Curve { opening, closing })
     }),
+    ("decimal fractions of the interval", 40, decimal),
+    // From either side; no handle is beyond the half.
+    ("joins at plain fractions", 100, |rng| {
+        let powers = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
+        let others = [3.0, 5.0, 6.0, 7.0, 9.0, 10.0, 12.0, 20.0, 100.0];
+        let all = if rng.chance(0.5) { powers[rng.below(6) as usize] } else { others[rng.below(9) as usize] };
+        let curve = joined_at(rng, all, |rng, length| {
+            let half = (length / 2.0) as u64;
+            let handle = if rng.chance(0.5) { length / 4.0 } else { whole(rng, 0, half) };
+            shape([0.0, handle, length - handle, length], SMOOTH)
+        });
+        if rng.chance(0.4) { curve.mirrored() } else { curve }
+    }),
+    ("joins at any, handles to the end", 8, |rng| {
+        let all = [2.0, 4.0, 8.0, 16.0, 32.0, 3.0, 5.0, 10.0][rng.below(8) as usize];
+        joined_at(rng, all, symmetric)
+    }),
     // In thousandths, and ramps across it.
-    family("joins next to time 0", 30, |rng| {
+    ("joins next to time 0", 30, |rng| {
         let mut decimal = |most| 0.001 * whole(rng, 1, most);
         let (open, join, end) = (decimal(4000), decimal(4000), decimal(6000));
         let plateau = [0.0, 0.0, join, 0.001][rng.below(4) as usize];
@@ -142,17 +121,10 @@ fn shutter_of(rng: &mut Rng, [opens, open, closes]: [f64; 3], drawn: fn(&mut Rng
     let last = if rng.chance(0.3) && opens == closes { first } else { drawn(rng, closes) };
     let light = if opens + open + closes > 0.0 { open } else { 1.0 };
     let end = start + opens + light + closes;
-    settled(Curve::shutter(opening(first, start, units), closing(last, end, units)))
-}
-
-/// The shape in time, `unit` of which are one: as a program reads a decimal fraction, rounded once.
-fn opening(shape: Shape, start: f64, units: f64) -> Points {
-    shape.map(|(t, f)| (((start + t) / units) as f32, f as f32))
-}
-
-fn closing(shape: Shape, end: f64, units: f64) -> Points {
-    let [a, b, c, d] = shape.map(|(t, f)| (((end - t) / units) as f32, f as f32));
-    [d, c, b, a]
+    // As a program reads a decimal fraction, rounded once.
+    let opening = first.map(|(t, f)| (((start + t) / units) as f32, f as f32));
+    let [d, c, b, a] = last.map(|(t, f)| (((end - t) / units) as f32, f as f32));
+    settled(Curve::shutter(opening, [a, b, c, d]))
 }
 
 /// Lengths as people say them.
@@ -165,32 +137,15 @@ fn length(rng: &mut Rng) -> f64 {
     }
 }
 
-/// Lengths that give the opening ramp exactly `part / all` of the exposure.
-fn lengths(rng: &mut Rng, part: f64, all: f64) -> [f64; 3] {
+/// A join at exactly so many parts of `all` of the exposure.
+fn joined_at(rng: &mut Rng, all: f64, drawn: fn(&mut Rng, f64) -> Shape) -> Curve {
+    let part = whole(rng, 1, all as u64 - 1);
     let scale = [1.0, 1.0, 2.0, 5.0, 10.0][rng.below(5) as usize];
     let rest = all - part;
     // The plateau's part of the rest.
-    let open = match rng.below(4) {
-        0 => 0.0,
-        1 => rest,
-        2 => rest / 2.0,
-        _ => whole(rng, 0, rest as u64),
-    };
-    [2.0 * part, open, 2.0 * (rest - open)].map(|length| length * scale)
-}
-
-/// A join at so many parts of `all`, on either ramp.
-fn joined_at(rng: &mut Rng, all: f64) -> Curve {
-    let part = whole(rng, 1, all as u64 - 1);
-    let lengths = lengths(rng, part, all);
-    let curve = shutter_of(rng, lengths, plain_symmetric, 1.0);
-    if rng.chance(0.4) { curve.mirrored() } else { curve }
-}
-
-/// The symmetric ones that are no trouble: no handle beyond the half.
-fn plain_symmetric(rng: &mut Rng, length: f64) -> Shape {
-    let handle = if rng.chance(0.5) { length / 4.0 } else { whole(rng, 0, (length / 2.0) as u64) };
-    shape([0.0, handle, length - handle, length], SMOOTH)
+    let open = [0.0, rest, rest / 2.0, whole(rng, 0, rest as u64)][rng.below(4) as usize];
+    let lengths = [2.0 * part, open, 2.0 * (rest - open)].map(|length| length * scale);
+    shutter_of(rng, lengths, drawn, 1.0)
 }
 
 /// As RenderMan has them.
@@ -207,10 +162,8 @@ fn decimal(rng: &mut Rng) -> Curve {
         two.map(|part| (part / parts) as f32)
     };
     let [[t1, t2], [t5, t6]] = [between(rng, 0.0, inner[0]), between(rng, inner[1], parts)];
-    let level = |rng: &mut Rng, usual: f64| {
-        if rng.chance(0.6) { usual as f32 } else { (whole(rng, 0, 10) / 10.0) as f32 }
-    };
-    let [y1, y2, y5, y6] = [level(rng, 0.0), level(rng, 1.0), level(rng, 1.0), level(rng, 0.0)];
+    let levels = [0.0, 1.0, 1.0, 0.0];
+    let [y1, y2, y5, y6] = levels.map(|usual| if rng.chance(0.6) { usual } else { (whole(rng, 0, 10) / 10.0) as f32 });
     let length = [1.0, 8.0, 10.0, 0.01, 1.0 / 60.0, 0.02][rng.below(6) as usize];
     let at = |part: f64| (length * part / parts) as f32;
     let (opening, closing) =

@@ -1,7 +1,6 @@
 //! What is promised of a curve, each as a number, once; and what holds the answers to it ([`Figures`]).
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use shutter_curve::{Hz, MAX_EVALUATIONS, ShutterCurve};
 
@@ -61,24 +60,9 @@ fn falls_by_ulps(from: f32, to: f32) -> f64 {
 /// The worst that was seen, and what broke a promise.
 #[derive(Clone, Debug, Default)]
 pub struct Figures {
-    pub curves: u64,
-    pub samples: u64,
-    pub backward: f64,
-    /// Of a polynomial's answers.
-    pub direct: f64,
-    /// On typical curves, as the sum, of so many fractions.
-    pub forward: f64,
-    pub forward_sum: f64,
-    pub forward_samples: u64,
-    pub evaluations: u32,
-    pub cdf: f64,
-    /// As `cdf`, in ulp of however small a value.
-    pub small_cdf: f64,
-    pub density: f64,
-    pub scalar: f64,
-    pub ticks: f64,
-    /// Neighbouring `f32` whose answers were compared.
-    pub pairs: u64,
+    pub worst: BTreeMap<&'static str, f64>,
+    /// The forward errors on typical curves: their sum, and how many.
+    pub forward: [f64; 2],
     /// Of each promise that was broken: how often, and the first time.
     pub breaches: BTreeMap<&'static str, (u64, String)>,
 }
@@ -92,7 +76,6 @@ impl Figures {
 
     /// Everything, with 8 octaves and with none.
     pub fn ask(&mut self, exact: &Exact, questions: &Questions) {
-        self.curves += 1;
         self.asked::<8>(exact, questions);
         self.asked::<0>(exact, questions);
         self.twins(exact, questions);
@@ -127,6 +110,13 @@ impl Figures {
         }
     }
 
+    /// Expects a figure to be at most a promised one.
+    fn hold(&mut self, what: &'static str, figure: f64, most: f64, at: impl Fn() -> String, exact: &Exact) {
+        let worst = self.worst.entry(what).or_insert(0.0);
+        *worst = worst.max(figure);
+        self.expect(what, figure <= most, at, exact);
+    }
+
     /// Error, range, order, length of the search.
     fn fractions<const OCTAVES: usize>(&mut self, exact: &Exact, ours: &ShutterCurve<OCTAVES>, questions: &Questions) {
         let curve = exact.curve();
@@ -135,25 +125,17 @@ impl Figures {
             let (t, evaluations) = (ours.inverse_cdf(u), ours.evaluations(u).unwrap_or(0));
             let errors = exact.judge_for(u, t, time);
             let at = || format!("u = {u:e}: {t:e}, {OCTAVES} octaves, {evaluations} evaluations, {errors:?}");
-            self.samples += 1;
-            let backward = floored(u, errors.backward);
-            self.backward = self.backward.max(backward);
-            self.evaluations = self.evaluations.max(evaluations);
             if questions.is_typical && time.hi != 0.0 && u >= LEAST_FRACTION {
-                self.forward = self.forward.max(errors.forward);
-                self.forward_sum += errors.forward;
-                self.forward_samples += 1;
-                self.expect("forward error", errors.forward <= FORWARD, at, exact);
+                self.forward = [self.forward[0] + errors.forward, self.forward[1] + 1.0];
+                self.hold("forward error", errors.forward, FORWARD, at, exact);
             }
             // A polynomial's is less, so that neighbours cannot change places.
-            let most = if evaluations == 0 { DIRECT } else { BACKWARD };
-            if evaluations == 0 {
-                self.direct = self.direct.max(backward);
-            }
-            self.expect("backward error", backward <= most, at, exact);
+            let (what, most) =
+                if evaluations == 0 { ("direct backward error", DIRECT) } else { ("backward error", BACKWARD) };
+            self.hold(what, floored(u, errors.backward), most, at, exact);
             self.expect("step back", t >= last, at, exact);
             let most = if curve.opening[3].1 < 1.0 { MAX_EVALUATIONS } else { EVALUATIONS };
-            self.expect("evaluations", evaluations <= most, at, exact);
+            self.hold("evaluations", evaluations.into(), most.into(), at, exact);
             last = t;
         }
         let ends = [f32::NAN, -1.0, -0.0, 0.0, 1.0, 2.0].map(|u| ours.inverse_cdf(u));
@@ -167,17 +149,11 @@ impl Figures {
         let mut last = 0.0;
         for &(t, ref near) in ts {
             let values @ [value, pdf, openness] = ours_values(ours, t);
-            let cdf = near.cdf_ulp(value, CDF_FLOOR);
-            let [pdf, openness] = [near.pdf_ulp(pdf, DENSITY_FLOOR), near.openness_ulp(openness, DENSITY_FLOOR)];
-            let density = [pdf, openness];
-            let at = || format!("t = {t:e}: {values:?}, {cdf:.2} {density:.2?} ulp");
-            self.samples += 3;
-            self.cdf = self.cdf.max(cdf);
-            self.small_cdf = self.small_cdf.max(near.cdf_ulp(value, 0.0));
-            self.density = self.density.max(density[0]).max(density[1]);
-            self.expect("cdf", cdf <= VALUE, at, exact);
-            self.expect("pdf and openness", density.iter().all(|error| *error <= VALUE), at, exact);
-            self.expect("cdf's step back", falls_by_ulps(last, value) <= CDF_STEP_BACK, at, exact);
+            let at = || format!("t = {t:e}: {values:?}");
+            self.hold("cdf", near.cdf_ulp(value, CDF_FLOOR), VALUE, at, exact);
+            self.hold("pdf", near.pdf_ulp(pdf, DENSITY_FLOOR), VALUE, at, exact);
+            self.hold("openness", near.openness_ulp(openness, DENSITY_FLOOR), VALUE, at, exact);
+            self.hold("cdf's step back", falls_by_ulps(last, value), CDF_STEP_BACK, at, exact);
             last = value;
         }
         for (got, true_value) in [
@@ -186,8 +162,7 @@ impl Figures {
             (ours.efficiency(), exact.efficiency()),
         ] {
             let error = (f64::from(got) - true_value.hi).abs() / ulp_f32(true_value.hi);
-            self.scalar = self.scalar.max(error);
-            self.expect("exposure and such", error <= SCALAR, || format!("{got:e}"), exact);
+            self.hold("exposure and such", error, SCALAR, || format!("{got:e}"), exact);
         }
         let curve = exact.curve();
         let times = [ours.open_start(), ours.open_end(), ours.close_start(), ours.close_end()];
@@ -259,10 +234,10 @@ impl Figures {
                 let ulp = if duty.is_some() { EDGE_ULP } else { TRIGGER_ULP };
                 let error = if near <= 0.5 { near } else { tick_error(exact, *tick, *u, hz, ulp) };
                 let at = || format!("{}, {error:.3} ticks off, or {near:.3}", which());
-                self.samples += 1;
-                self.ticks = self.ticks.max(error);
-                self.expect("ticks", error <= TICK, at, exact);
-                self.expect("typical ticks", !is_promised || near <= TYPICAL_TICK, at, exact);
+                self.hold("ticks", error, TICK, at, exact);
+                if is_promised {
+                    self.hold("typical ticks", near, TYPICAL_TICK, at, exact);
+                }
             }
             let [on, off] = *on_off;
             let at = || format!("{} after {last}", which());
@@ -271,8 +246,7 @@ impl Figures {
         }
     }
 
-    /// The mirrored curve gives mirrored times, scaled times give scaled answers, and -0.0 counts as 0.0 wherever it
-    /// stands.
+    /// The mirrored curve gives mirrored times, and scaled times give scaled answers.
     fn twins(&mut self, exact: &Exact, questions: &Questions) {
         let curve = exact.curve();
         let ours = shutter::<8>(curve);
@@ -294,16 +268,6 @@ impl Figures {
             // Of the least numbers a power of two leaves the normal ones.
             self.expect("scaled", power * t == other || t.abs() < 1e-30, at, exact);
         }
-        for zero in [0.0, -0.0] {
-            let signed = |x: f32| if x == 0.0 { zero } else { x };
-            let signed = |ramp: [(f32, f32); 4]| ramp.map(|(t, f)| (signed(t), signed(f)));
-            let [opening, closing] = [curve.opening, curve.closing].map(signed);
-            let other = shutter::<8>(&Curve { opening, closing });
-            let same = questions.us.iter().step_by(5).all(|(u, _)| ours.inverse_cdf(*u) == other.inverse_cdf(*u))
-                && questions.ts.iter().step_by(5).all(|(t, _)| ours_values(&ours, *t) == ours_values(&other, *t))
-                && ours_values(&ours, -0.0) == ours_values(&ours, 0.0);
-            self.expect("-0.0", same, String::new, exact);
-        }
     }
 
     /// Neighbouring `f32`, so many around each place where something changes: no step back.
@@ -319,7 +283,7 @@ impl Figures {
             for u in neighbours(place as f32, count) {
                 let t = inverse(u);
                 self.expect(what, t >= last, || format!("{t:e} after {last:e} at {u:e}"), exact);
-                (last, self.pairs) = (t, self.pairs + 1);
+                last = t;
             }
         };
         for place in places {
@@ -349,9 +313,9 @@ impl Figures {
             for t in around(place, count as usize) {
                 let cdf = direct.cdf(t);
                 let at = || format!("{cdf:e} after {last:e} at {t:e}");
-                let holds = falls_by_ulps(last, cdf) <= CDF_STEP_BACK && cdf <= 1.0;
-                self.expect("cdf's step back between neighbours", holds, at, exact);
-                (last, self.pairs) = (cdf, self.pairs + 1);
+                let falls = if cdf <= 1.0 { falls_by_ulps(last, cdf) } else { f64::INFINITY };
+                self.hold("cdf's step back between neighbours", falls, CDF_STEP_BACK, at, exact);
+                last = cdf;
             }
         }
     }
@@ -370,7 +334,7 @@ pub struct Questions<'a> {
     frames: Vec<Frame>,
     /// Of plain ones those in turn go with a frame; the greatest that are allowed go with each.
     rates: Vec<u32>,
-    greatest: Vec<u32>,
+    pub greatest: Vec<u32>,
     /// Are the forward error and the tick's promised?
     is_typical: bool,
     /// How many neighbours are walked on either side.
@@ -378,7 +342,7 @@ pub struct Questions<'a> {
 }
 
 /// Some neighbours of a frame, with the fraction and the exact time since the start of the curve for each end.
-struct Frame {
+pub struct Frame {
     n: u32,
     /// None for triggers.
     duty: Option<f32>,
@@ -388,7 +352,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn new(exact: &Exact, n: u32, duty: Option<f32>, first: u32, count: u32) -> Self {
+    pub fn new(exact: &Exact, n: u32, duty: Option<f32>, first: u32, count: u32) -> Self {
         let start = Dd::from(exact.curve().open_start());
         let end = |i: u32, more: f64| {
             let u = Dd::from(2.0 * f64::from(i) + 1.0) + Dd::from(more);
@@ -406,19 +370,9 @@ impl Frame {
     }
 }
 
-/// What is asked of a design: the greatest denominator of the fractions, and the greatest frame of which every trigger
-/// is asked for.
-#[derive(Clone, Copy)]
-pub struct Reach {
-    pub denominator: u32,
-    pub frame: u32,
-    /// Which rates and duties; a few of each go with a design.
-    pub turn: usize,
-    pub is_typical: bool,
-}
-
 impl<'a> Questions<'a> {
-    fn of(exact: &'a Exact, mut us: Vec<f32>, mut ts: Vec<f32>, frames: Vec<Frame>) -> Self {
+    /// These fractions, times and frames, as far as they are on the curve.
+    pub fn new(exact: &'a Exact, mut us: Vec<f32>, mut ts: Vec<f32>, frames: Vec<Frame>) -> Self {
         let [start, end] = [exact.curve().open_start(), exact.curve().close_end()];
         let length = f64::from(end) - f64::from(start);
         us.retain(|u| (0.0..=1.0).contains(u));
@@ -437,7 +391,7 @@ impl<'a> Questions<'a> {
             rates: Vec::new(),
             greatest: greatest.into_iter().filter(allowed).collect(),
             is_typical: false,
-            walk: 20,
+            walk: 0,
         }
     }
 
@@ -460,31 +414,19 @@ impl<'a> Questions<'a> {
         let (us, ts) = (aimed_us(exact, rng), aimed_ts(exact, rng));
         let length = f64::from(exact.curve().close_end()) - f64::from(exact.curve().open_start());
         let rates = Some((1000.0 / length) as u32).filter(|hz| *hz > 0).into_iter().collect();
-        Self { rates, ..Self::of(exact, us, ts, frames) }
-    }
-
-    /// These fractions and times, as far as they are on the curve.
-    pub fn any(exact: &'a Exact, us: Vec<f32>, ts: Vec<f32>) -> Self {
-        Self { walk: 0, ..Self::of(exact, us, ts, Vec::new()) }
+        Self { rates, walk: 20, ..Self::new(exact, us, ts, frames) }
     }
 
     /// These fractions alone.
     pub fn fractions(exact: &'a Exact, us: Vec<f32>, is_typical: bool) -> Self {
-        Self { is_typical, ..Self::any(exact, us, Vec::new()) }
+        Self { is_typical, ..Self::new(exact, us, Vec::new(), Vec::new()) }
     }
 
-    /// A part of a frame alone, at one rate.
-    pub fn frame(exact: &'a Exact, n: u32, duty: Option<f32>, first: u32, count: u32, hz: u32) -> Self {
-        let frames = vec![Frame::new(exact, n, duty, first, count)];
-        let greatest = vec![hz];
-        Self { greatest, walk: 0, ..Self::of(exact, Vec::new(), Vec::new(), frames) }
-    }
-
-    /// Plain fractions, all small frames, and what lies next to the joins.
-    pub fn plain(exact: &'a Exact, reach: Reach) -> Self {
+    /// Plain fractions, all small frames, and what lies next to the joins; and some rates and duties in turn.
+    pub fn plain(exact: &'a Exact, turn: usize, is_typical: bool) -> Self {
         let curve = *exact.curve();
         let mut us = Vec::new();
-        for m in 1..=reach.denominator {
+        for m in 1..=64 {
             us.extend((0..=m).flat_map(|k| neighbours(k as f32 / m as f32, 1)));
         }
         // Octaves end at eighths of a power of two; so does the least of them, and the line begins at a power.
@@ -507,9 +449,9 @@ impl<'a> Questions<'a> {
         }
         us.sort_by(f32::total_cmp);
         us.dedup();
-        let mut frames: Vec<_> = (1..=reach.frame).map(|n| Frame::new(exact, n, None, 0, n)).collect();
+        let mut frames: Vec<_> = (1..=40).map(|n| Frame::new(exact, n, None, 0, n)).collect();
         for duty in [0.1, 0.25, 0.5, 0.75, 1.0] {
-            let n = 1 + (reach.turn as u32 * 7 + (duty * 20.0) as u32) % reach.frame.max(1);
+            let n = 1 + (turn as u32 * 7 + (duty * 20.0) as u32) % 40;
             frames.push(Frame::new(exact, n, Some(duty), 0, n));
             frames.push(Frame::new(exact, 12, Some(duty), 0, 12));
         }
@@ -540,10 +482,9 @@ impl<'a> Questions<'a> {
         }
         let length = f64::from(end) - f64::from(start);
         let mut rates = RATES;
-        rates.rotate_left(reach.turn % RATES.len());
+        rates.rotate_left(turn % RATES.len());
         let rates = rates.into_iter().filter(|hz| f64::from(*hz) * length <= exp2(31)).collect();
-        let is_typical = reach.is_typical;
-        Self { rates, is_typical, walk: 100, ..Self::of(exact, us, ts, frames) }
+        Self { rates, is_typical, walk: 100, ..Self::new(exact, us, ts, frames) }
     }
 }
 
@@ -562,21 +503,4 @@ pub fn tick_error(exact: &Exact, tick: u32, u: Dd, hz: u32, ulp: f64) -> f64 {
     let lesser = u.min(Dd::ONE - u);
     let forgiven = Dd::from(ulp * ulp_f32(lesser.hi.max(0.0)).max(BACKWARD_FLOOR));
     (delay(u - forgiven) - tick).max(tick - delay(u + forgiven)).max(0.0)
-}
-
-impl fmt::Display for Figures {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { curves, samples, backward, evaluations, cdf, small_cdf, density, .. } = self;
-        let Self { direct, ticks, scalar, pairs, .. } = self;
-        if self.forward > 0.0 {
-            let mean = self.forward_sum / self.forward_samples as f64;
-            write!(out, "forward {:.3} ulp, mean {mean:.3}, ", self.forward)?;
-        }
-        write!(
-            out,
-            "backward error {backward:.3} ulp ({direct:.3} without a search), {evaluations} evaluations, cdf {cdf:.3} \
-             ulp ({small_cdf:.3} without a floor), density {density:.3} ulp, exposure {scalar:.3} ulp, {ticks:.3} \
-             ticks; {samples} samples and {pairs} pairs on {curves} curves"
-        )
-    }
 }

@@ -6,8 +6,6 @@
 
 pub mod dd;
 
-use std::cell::OnceCell;
-
 pub use dd::{Dd, exp2};
 
 /// A cubic Bezier's control points as (time, openness).
@@ -108,46 +106,25 @@ impl<const N: usize> Poly<N> {
             let middle = (below + above) / 2;
             *(if is_below(middle) { &mut below } else { &mut above }) = middle;
         }
-        // ... then x to f64's accuracy by Halley's steps, ...
-        let (mut low, mut high) = (exp2(below), exp2(above));
-        let mut x = 0.75 * high;
-        for _ in 0..64 {
-            let [value, slope, bend] = self.approx(x);
-            let rest = target.hi - value;
-            *(if rest > 0.0 { &mut low } else { &mut high }) = x;
-            let halley = x + rest * slope / (slope * slope + rest * bend);
-            let next = if halley > low && halley < high { halley } else { 0.5 * (low + high) };
-            let step = (next - x).abs();
-            x = next;
-            if step <= 2.0 * f64::EPSILON * x {
-                break;
-            }
-        }
-        // ... and in full. The bracket starts afresh: rounding may have misled the one in f64.
+        // ... then Halley's steps inside a bracket, which starts farther out: rounding may have misled the octave.
         let (mut low, mut high) = (Dd::from(exp2(below - 1)), Dd::from(exp2(above + 1).min(1.0)));
-        let mut x = Dd::from(x);
+        let mut x = Dd::from(0.75 * exp2(above));
         for iteration in 0..400 {
             let rest = target - self.at(x);
-            if rest.hi == 0.0 || iteration > 3 && rest.hi.abs() <= self.noise(x.hi) {
+            if rest.hi == 0.0 || iteration > 8 && rest.hi.abs() <= self.noise(x.hi) {
                 break;
             }
-            let side = if rest.hi > 0.0 { &mut low } else { &mut high };
-            *side = x;
+            *(if rest.hi > 0.0 { &mut low } else { &mut high }) = x;
             let [_, slope, bend] = self.approx(x.hi);
-            let step = rest.hi / slope;
-            let newton = x + Dd::from(step);
-            if slope > 0.0 && newton > low && newton < high {
-                x = newton;
-                // What Newton's step leaves: the series' next term, and the step's own rounding.
-                let left = (bend * step / slope).abs().max(2.0 * f64::EPSILON) * step.abs();
-                if left <= exp2(-99) * x.hi {
-                    break;
-                }
-            } else {
-                x = (low + high).scale(0.5);
-                if (high - low).hi <= exp2(-103) * x.hi {
-                    break;
-                }
+            let step = rest.hi * slope / (slope * slope + rest.hi * bend);
+            let next = x + Dd::from(step);
+            // More than the step leaves: what Newton's would, and its own rounding.
+            let left = (bend * step / slope).abs().max(2.0 * f64::EPSILON) * step.abs();
+            let is_inside = slope > 0.0 && next > low && next < high;
+            x = if is_inside { next } else { (low + high).scale(0.5) };
+            let size = exp2(-103) * x.hi;
+            if is_inside && left <= 16.0 * size || (high - low).hi <= size {
+                break;
             }
         }
         x
@@ -518,7 +495,14 @@ impl Exact {
 
     /// What the curve takes on around a time, to judge several answers by.
     pub fn near(&self, t: f32) -> Near<'_> {
-        Near { exact: self, t, values: Default::default() }
+        let interval = Dd::from(self.curve.close_end()) - Dd::from(self.curve.open_start());
+        let reach = ulp_f32(f64::from(t)).max(interval.hi * exp2(-53));
+        let values = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|part| {
+            let t = Dd::from(t) + Dd::from(part * reach);
+            let place = self.place(t);
+            [self.masses_at(t, place)[0] / self.area, self.openness_at(place)]
+        });
+        Near { exact: self, t, reach, values }
     }
 
     /// The u at which something changes: first the joins, then where the density or t' has an interior minimum or
@@ -550,19 +534,18 @@ impl Exact {
     }
 }
 
-/// The cdf and the openness at five times within an ulp of one, or within 2⁻⁵³ of the interval where that is more; each
-/// found when it is first asked for.
+/// The cdf and the openness at five times within an ulp of one, or within 2⁻⁵³ of the interval where that is more.
 pub struct Near<'a> {
     exact: &'a Exact,
     t: f32,
-    values: [OnceCell<[Dd; 2]>; 5],
+    reach: f64,
+    values: [[Dd; 2]; 5],
 }
 
 impl Near<'_> {
     /// The error of a cdf of `got`, see [`value_ulp`]; an ulp is at least that of `floor`.
     pub fn cdf_ulp(&self, got: f32, floor: f64) -> f64 {
-        let values = self.values().map(|[cdf, _]| cdf);
-        value_ulp(got, values, |value| ulp_f32(value.max(floor)))
+        value_ulp(got, self.values.iter().map(|[cdf, _]| *cdf), |value| ulp_f32(value.max(floor)))
     }
 
     /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least `floor`.
@@ -576,34 +559,11 @@ impl Near<'_> {
     }
 
     fn density_ulp(&self, got: f32, scale: Dd, floor: f64) -> f64 {
-        let (exact, t) = (self.exact, Dd::from(self.t));
-        let samples = self.values().map(|[_, openness]| openness);
         // Between two samples the openness may have an extremum, or a ramp its end.
-        let reach = self.reach();
-        let turns = exact.turns.iter().filter(|turn| (turn[0] - t).hi.abs() <= reach);
-        let values = samples.chain(turns.map(|turn| turn[1])).map(|f| f * scale);
-        let least = floor * scale.hi;
-        value_ulp(got, values, |value| ulp_f32(value).max(least))
-    }
-
-    fn reach(&self) -> f64 {
-        let curve = &self.exact.curve;
-        let interval = f64::from(curve.close_end()) - f64::from(curve.open_start());
-        ulp_f32(f64::from(self.t)).max(interval * exp2(-53))
-    }
-
-    /// From the middle outwards: most answers are settled after few.
-    fn values(&self) -> impl Iterator<Item = [Dd; 2]> {
-        let (exact, middle) = (self.exact, Dd::from(self.t));
-        let reach = self.reach();
-        let parts = [0.0, -1.0, 1.0, -0.5, 0.5].into_iter();
-        parts.zip(&self.values).map(move |(part, values)| {
-            *values.get_or_init(|| {
-                let t = middle + Dd::from(part * reach);
-                let place = exact.place(t);
-                [exact.masses_at(t, place)[0] / exact.area, exact.openness_at(place)]
-            })
-        })
+        let is_near = |turn: &&[Dd; 2]| (turn[0] - Dd::from(self.t)).hi.abs() <= self.reach;
+        let turns = self.exact.turns.iter().filter(is_near);
+        let values = self.values.iter().chain(turns).map(|[_, openness]| *openness * scale);
+        value_ulp(got, values, |value| ulp_f32(value).max(floor * scale.hi))
     }
 }
 
@@ -629,18 +589,13 @@ pub fn rounding_cell(t: f32) -> [f64; 2] {
 /// Infinite if `got` is no number.
 pub fn value_ulp(got: f32, values: impl Iterator<Item = Dd>, ulp: impl Fn(f64) -> f64) -> f64 {
     let got = got as f64;
-    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-    for value in values {
-        range = [range[0].min(value.hi), range[1].max(value.hi)];
-        if got >= range[0] && got <= range[1] {
-            return 0.0;
-        }
-    }
+    let (least, most) = values
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| (least.min(value.hi), most.max(value.hi)));
     if !got.is_finite() {
         f64::INFINITY
-    } else if got < range[0] {
-        (range[0] - got) / ulp(range[0])
+    } else if got < least {
+        (least - got) / ulp(least)
     } else {
-        (got - range[1]) / ulp(range[1])
+        ((got - most) / ulp(most)).max(0.0)
     }
 }
