@@ -2,7 +2,7 @@
 what it finds is in order and near enough.
 
 Of `fixed::times` and `times_up`, `Series::at` and `solve`, `guess`, `Ramp::time_of_part`, `place_of_time` and
-`time_powers`, `Exposure::time_units` and `cdf::cdf`.
+`way_powers`, `Exposure::time_units` and `cdf::cdf`.
 """
 
 from itertools import product

@@ -128,8 +128,6 @@ impl ShutterCurve {
     /// assert_eq!(curve.pdf(0.5), 1.0);
     /// assert_eq!(curve.cdf(0.5), 0.25);
     /// assert_eq!(curve.inverse_cdf(0.25), 0.5);
-    /// // The area under f is 40.
-    /// assert_eq!(curve.exposure() * 128.0, 40.0);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     ///
@@ -195,8 +193,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
-    /// let curve = ShutterCurve::linear(0.0, 3.0, 6.0, 9.0)?;
-    /// assert_eq!([1.5, 4.5, 8.25, 9.5].map(|t| curve.openness(t)), [0.5, 1.0, 0.25, 0.0]);
+    /// // In ms. The exposure is 4 ms, so the fully open shutter collects a quarter of it in each ms.
+    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
+    /// assert_eq!([1.0, 3.0, 5.0, 7.0].map(|t| curve.openness(t)), [0.5, 1.0, 0.5, 0.0]);
+    /// assert_eq!([1.0, 3.0, 5.0, 7.0].map(|t| curve.pdf(t)), [0.125, 0.25, 0.125, 0.0]);
+    /// assert_eq!([-1.0, 2.0, 3.0, 7.0].map(|t| curve.cdf(t)), [0.0, 0.25, 0.5, 1.0]);
+    /// assert_eq!([-1.0, 0.5, 1.0].map(|u| curve.inverse_cdf(u)), [0.0, 3.0, 6.0]);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     #[must_use]
@@ -206,14 +208,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 
     /// The probability density at the time `t`: the openness divided by the [`exposure`](Self::exposure). It is the
     /// fraction of the exposure that is collected per unit of time.
-    ///
-    /// ```
-    /// use shutter_curve::ShutterCurve;
-    /// // In ms. The exposure is 4 ms, so the fully open shutter collects a quarter of it in each ms.
-    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
-    /// assert_eq!([1.0, 3.0].map(|t| curve.pdf(t)), [0.125, 0.25]);
-    /// # Ok::<(), shutter_curve::CurveError>(())
-    /// ```
     #[must_use]
     pub fn pdf(&self, t: f32) -> f32 {
         cdf::pdf(&self.inverse.exposure, t)
@@ -221,13 +215,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 
     /// The fraction of the exposure that is collected by the time `t`. It is 0 before the shutter opens and for NaN,
     /// and 1 after the shutter has closed.
-    ///
-    /// ```
-    /// use shutter_curve::ShutterCurve;
-    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
-    /// assert_eq!([-1.0, 2.0, 3.0, 7.0].map(|t| curve.cdf(t)), [0.0, 0.25, 0.5, 1.0]);
-    /// # Ok::<(), shutter_curve::CurveError>(())
-    /// ```
     #[must_use]
     pub fn cdf(&self, t: f32) -> f32 {
         cdf::cdf(&self.inverse.exposure, t)
@@ -237,15 +224,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// `u` is clamped to [0, 1], and NaN counts as 0. The time of 0 is `open_start`, and the time of 1 is `close_end`.
     /// A larger `u` never gives an earlier time.
-    ///
-    /// ```
-    /// use shutter_curve::ShutterCurve;
-    /// // The ramps and the plateau collect 0.1 + 0.5 + 0.15 = 0.75. Half of that is collected by 0.475.
-    /// let curve = ShutterCurve::linear(0.0, 0.2, 0.7, 1.0)?;
-    /// assert_eq!(curve.exposure(), 0.75);
-    /// assert_eq!(curve.inverse_cdf(0.5), 0.475);
-    /// # Ok::<(), shutter_curve::CurveError>(())
-    /// ```
     #[must_use]
     pub fn inverse_cdf(&self, u: f32) -> f32 {
         self.inverse.inverse_cdf(u)

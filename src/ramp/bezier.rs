@@ -19,12 +19,6 @@ impl CubicBezier {
     }
 
     /// Makes a straight line between two points, each a (time, openness).
-    ///
-    /// ```
-    /// use shutter_curve::CubicBezier;
-    /// let line = CubicBezier::line((0.0, 0.0), (3.0, 1.5));
-    /// assert_eq!(line.points(), [(0.0, 0.0), (1.0, 0.5), (2.0, 1.0), (3.0, 1.5)]);
-    /// ```
     #[must_use]
     pub const fn line(from: (f32, f32), to: (f32, f32)) -> Self {
         const fn third(a: f32, b: f32, n: f64) -> f32 {
