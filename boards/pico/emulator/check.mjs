@@ -1,6 +1,6 @@
-// node check.mjs FIRMWARE SOURCES [falling|rising EDGES]: runs the firmware in the emulator, and judges each edge of the
-// lamp's line in some frames by leaf.rs. Exits with 1 if one is not on its cycle after the sync's edge. By another sync
-// than that of leaf.rs, if asked for, and writes the lamp's edges of each frame to EDGES.
+// node check.mjs FIRMWARE SOURCES [falling|rising EDGES]: runs the firmware in the emulator, and judges each edge of
+// the lamp's line in some frames by leaf.rs. Exits with 1 if one is not on its cycle after the sync's edge. By another
+// sync than that of leaf.rs, if asked for, and writes the lamp's edges of each frame to EDGES.
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

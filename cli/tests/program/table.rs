@@ -154,7 +154,6 @@ fn some_traces_are_fitted_as_well_as_promised() {
 #[test]
 #[ignore = "some minutes: the whole table, for docs/internals/fit.md"]
 fn table() {
-    let mut white = Vec::new();
     for (disturbance, name, limits) in DISTURBANCES {
         let is_white = disturbance == Disturbance::White;
         let each = asked("EACH", 60);
@@ -173,15 +172,14 @@ fn table() {
         }
         print("all", &rows.iter().collect::<Vec<_>>());
         print("without `unseen`", &rows.iter().filter(|row| !row.is_blind()).collect::<Vec<_>>());
+        if is_white {
+            let path = concat!(env!("CARGO_TARGET_TMPDIR"), "/fit-errors.svg");
+            fs::write(path, picture(&rows).unwrap()).expect("the picture is written");
+            println!("\n{path}");
+        }
         judge_errors(&rows, failed, limits);
         judge_claims(&rows, 0.9..=0.99);
-        if is_white {
-            white = rows;
-        }
     }
-    let path = concat!(env!("CARGO_TARGET_TMPDIR"), "/fit-errors.svg");
-    fs::write(path, picture(&white).unwrap()).expect("the picture is written");
-    println!("\n{path}");
     for n in [1000, 10_000, 100_000, 1_000_000] {
         let mut random = Random::new(7);
         let truth = truth(Shutter::Leaf, &mut random);
