@@ -12,8 +12,9 @@ use shutter_plan::plan::Plan;
 use shutter_plan::scene;
 use strum::IntoEnumIterator;
 
-use crate::generator::{Disturbance, Random, SHUTTERS, Shutter, Truth, bezier, each, traced, truth};
+use crate::generator::{Case, Grain, Random, Recorder, Truth, each};
 use crate::refusals::MEASURED;
+use crate::shutters::{Draw, TUNED};
 use crate::support::{Folder, SCENES, codes, csv, keys, leaf, number, rows, sampled, trapezoid};
 
 fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
@@ -159,10 +160,16 @@ fn full_light_scales_exposure_and_efficiency_and_leaves_the_triggers() {
     assert_eq!(dimmed.triggers, plain.triggers);
 }
 
+/// A trace of a shutter.
+fn traced(shutter: &str, samples: f64, noise: f64, random: &mut Random) -> Case {
+    let truth = Draw::tuned(random).shutter(shutter);
+    Recorder::new(samples, 1.0, noise).record(truth, random)
+}
+
 /// Five frames of a leaf shutter whose exposures differ by some per mille.
 fn frames(noise: f64) -> Trace {
     let mut random = Random::new(3);
-    let leaf = truth(Shutter::Leaf, &mut random);
+    let leaf = Draw::tuned(&mut random).shutter("leaf");
     let mut trace = Trace::default();
     for k in 0..5 {
         let pace = [1.0, 1.004, 0.997, 1.002, 0.999][k];
@@ -263,7 +270,7 @@ fn shots_an_hour_apart_are_as_good_as_shots_side_by_side() {
 #[test]
 fn a_tolerance_asks_for_the_simplest_within_it() {
     let mut random = Random::new(2);
-    let case = traced(truth(Shutter::Leaf, &mut random), Disturbance::White, 2000, 0.003, &mut random);
+    let case = traced("leaf", 2000.0, 0.003, &mut random);
     let within = |tolerance| case.fitted(&Options { tolerance: Some(tolerance), ..Options::default() });
     assert_eq!(within(Tolerance::Share(0.5)).chosen, Kind::Box);
     assert_eq!(within(Tolerance::Share(0.0)).chosen, Kind::Free);
@@ -277,15 +284,15 @@ fn a_tolerance_asks_for_the_simplest_within_it() {
 #[test]
 fn correlated_samples_count_for_fewer() {
     // Of a noise that is correlated by 0.8 from one sample to the next, nine are as good as an independent one.
-    for (disturbance, least, most) in [(Disturbance::White, 0.8, 1.0), (Disturbance::Coloured, 0.07, 0.18)] {
+    for (grain, least, most) in [(Grain::White, 0.8, 1.0), (Grain::Coloured, 0.07, 0.18)] {
         for seed in 0..2 {
             let mut random = Random::new(seed);
-            let truth = truth(Shutter::Trapezoid, &mut random);
-            let case = traced(truth, disturbance, 3000, 0.01, &mut random);
+            let truth = Draw::tuned(&mut random).shutter("straight ramps");
+            let case = Recorder { grain, ..Recorder::new(3000.0, 1.0, 0.01) }.record(truth, &mut random);
             let fit = case.fitted(&Options::default());
             let shutter_fit::Reason::Criterion { effective } = fit.reason else { panic!() };
             let share = effective / fit.samples.times.len() as f64;
-            assert!((least..=most).contains(&share), "{disturbance:?} {seed}: {share}");
+            assert!((least..=most).contains(&share), "{grain:?} {seed}: {share}");
         }
     }
 }
@@ -297,8 +304,7 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
     let (mut covered, mut stated, mut all) = (0.0, 0.0, 0.0);
     for seed in 100..116 {
         let mut random = Random::new(seed);
-        let truth = truth(Shutter::LiquidCrystal, &mut random);
-        let case = traced(truth, Disturbance::White, 2000, 0.003, &mut random);
+        let case = traced("liquid crystal", 2000.0, 0.003, &mut random);
         let fit = case.fitted(&Options::default());
         let last = fit.triggers[15];
         covered += f64::from((last.value - case.trigger(15.5 / 16.0)).abs() <= 1.96 * last.error);
@@ -319,9 +325,9 @@ fn the_exposure_is_known_without_a_plateau_too() {
         let [start, peak, end] = [0.2, random.within(0.3, 0.6), random.within(0.65, 0.8)];
         let straight: fn(f64) -> f64 = |z| z;
         let ramp = if seed % 2 == 0 { straight } else { soft };
-        let truth = Truth::new(Box::new(ramp), Box::new(ramp), [start, peak, peak, end]);
-        let (n, noise) = (random.scale(400.0, 1000.0) as usize, random.scale(0.003, 0.02));
-        let case = traced(truth, Disturbance::White, n, noise, &mut random);
+        let truth = Truth::new(ramp, ramp, [start, peak, peak, end]);
+        let (n, noise) = (random.scale(400.0, 1000.0), random.scale(0.003, 0.02));
+        let case = Recorder::new(n, 1.0, noise).record(truth, &mut random);
         let fit = case.fitted(&Options::default());
         let (exposure, truth) = (fit.exposure, case.exposure());
         assert!(exposure.error < 0.03 * truth, "{seed}: {exposure:?}");
@@ -354,7 +360,7 @@ fn soft(z: f64) -> f64 {
 
 #[test]
 fn a_photodiode_shifts_the_triggers_by_its_time_constant() {
-    let truth = Truth::new(Box::new(soft), Box::new(soft), [0.004, 0.008, 0.013, 0.019]);
+    let truth = Truth::new(soft, soft, [0.004, 0.008, 0.013, 0.019]);
     let (fit, _) = through(photodiode(|t| truth.openness(t)), &trace::Options::default());
     let exposure = truth.exposure();
     assert!((fit.exposure.value / exposure - 1.0).abs() < 0.001, "{:?}", fit.exposure);
@@ -376,10 +382,9 @@ fn planned(fit: &Fit, zero: Zero) -> Plan {
 
 #[test]
 fn the_scene_gives_the_same_triggers() {
-    for (k, shutter) in SHUTTERS.into_iter().enumerate() {
+    for (k, shutter) in TUNED.into_iter().enumerate() {
         let mut random = Random::new(40 + k as u64);
-        let truth = truth(shutter, &mut random);
-        let case = traced(truth, Disturbance::White, 1000, 0.005, &mut random);
+        let case = traced(shutter, 1000.0, 0.005, &mut random);
         let fit = case.fitted(&Options::default());
         for zero in [Zero::Trace, Zero::Open] {
             let plan = planned(&fit, zero);
@@ -396,11 +401,9 @@ fn the_scene_gives_the_same_triggers() {
 #[test]
 fn every_corner_of_the_control_numbers_is_a_scene() {
     each(16, |corner| {
-        let controls: [f64; 4] = std::array::from_fn(|k| f64::from(corner >> k & 1));
-        let [opening, closing] = [bezier(controls), bezier(controls)];
-        let truth = Truth::new(opening, closing, [0.2, 0.4, 0.5, 0.8]);
-        let mut random = Random::new(corner.into());
-        let case = traced(truth, Disturbance::White, 200, 0.0, &mut random);
+        let own = std::array::from_fn(|k| f64::from(corner >> (k % 4) & 1));
+        let truth = Draw { start: 0.2, length: 0.6, a: 0.2, b: 0.3, own }.shutter("symmetric cubics");
+        let case = Recorder::new(200.0, 1.0, 0.0).record(truth, &mut Random::new(0));
         for model in [Kind::Symmetric, Kind::Free] {
             let options = Options { model: Some(model), ..Options::default() };
             planned(&case.fitted(&options), Zero::Trace);
@@ -699,11 +702,7 @@ fn tails_are_looked_at_to_their_end() {
     assert!((fit.exposure.value - 6e-3).abs() < 5e-5, "{:?}", fit.exposure);
     // All of it is 6 ms at 1, and full light 0.7 with some of the lag.
     assert!((0.0078..0.0088).contains(&with.unwrap_or(0.0)), "{:?}", fit.warnings);
-    assert!(
-        !told(&fit, |w| matches!(w, Warning::Drift { .. } | Warning::DriftOrCapacitor { .. })),
-        "{:?}",
-        fit.warnings
-    );
+    assert!(!told(&fit, |w| matches!(w, Warning::Drift { .. })), "{:?}", fit.warnings);
 }
 
 #[test]

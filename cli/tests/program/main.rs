@@ -1,9 +1,12 @@
 //! The tests of the program in one, which is compiled and linked once.
 
+// Each test needs a part.
+#[allow(dead_code)]
 #[path = "../../../fit/tests/traces/generator.rs"]
 mod generator;
-#[path = "../../../fit/tests/traces/judge.rs"]
-mod judge;
+#[allow(dead_code)]
+#[path = "../../../fit/tests/traces/shutters.rs"]
+mod shutters;
 
 mod emit;
 mod fit;
@@ -16,5 +19,4 @@ mod scene_keys;
 mod session;
 mod support;
 mod sync;
-mod table;
 mod times;

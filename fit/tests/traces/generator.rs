@@ -1,15 +1,14 @@
 //! Synthetic traces with a known truth. Nothing here is shared with what is tested: a shutter is any function of time,
-//! sampled and integrated numerically.
-
-// Each test needs a part.
-#![allow(dead_code)]
+//! integrated numerically, and a recorder samples that.
 
 use std::env;
+use std::f64::consts::TAU;
 use std::fmt::Debug;
+use std::ops::Range;
 use std::str::FromStr;
 
 use shutter_fit::trace::Trace;
-use shutter_fit::{Fit, Options, fit};
+use shutter_fit::{Fit, Kind, Options, fit};
 
 /// What a function is of each number below `n`, by two threads, since most tests of fits are one long loop.
 pub fn each<T: Send>(n: u32, of: impl Fn(u32) -> T + Sync) -> Vec<T> {
@@ -61,44 +60,10 @@ impl Random {
     }
 
     pub fn normal(&mut self) -> f64 {
-        let (u, v) = (self.within(1e-300, 1.0), self.within(0.0, std::f64::consts::TAU));
+        let (u, v) = (self.within(1e-300, 1.0), self.within(0.0, TAU));
         (-2.0 * u.ln()).sqrt() * v.cos()
     }
 }
-
-/// The shutters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shutter {
-    Box,
-    Trapezoid,
-    Leaf,
-    Iris,
-    LiquidCrystal,
-    Symmetric,
-    Cubic,
-}
-
-pub const SHUTTERS: [Shutter; 7] = {
-    use Shutter::*;
-    [Box, Trapezoid, Leaf, Iris, LiquidCrystal, Symmetric, Cubic]
-};
-
-/// What disturbs a trace beside white noise, or instead of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Disturbance {
-    White,
-    /// An autoregressive noise, 0.8 from one sample to the next.
-    Coloured,
-    Hum,
-    Drift,
-    /// 1/f noise instead.
-    Pink,
-}
-
-const OCTAVES: usize = 12;
-
-/// A ramp from 0 at 0 to 1 at 1.
-type Ramp = Box<dyn Fn(f64) -> f64>;
 
 /// So many places at which the truth is worked out.
 const FINE: usize = 60_000;
@@ -114,7 +79,7 @@ pub struct Truth {
 
 impl Truth {
     /// A ramp, a plateau, and a ramp that is seen backwards.
-    pub fn new(opening: Ramp, closing: Ramp, times: [f64; 4]) -> Self {
+    pub fn new(opening: impl Fn(f64) -> f64, closing: impl Fn(f64) -> f64, times: [f64; 4]) -> Self {
         let [start, open, close, end] = times;
         let openness = |t: f64| match t {
             _ if t < open => opening((t - start) / (open - start)),
@@ -150,6 +115,14 @@ impl Truth {
         if (0.0..=FINE as f64).contains(&place) { self.at[(place as usize).min(FINE - 1)] } else { 0.0 }
     }
 
+    /// From when to when it is at least so open.
+    pub fn within_openness(&self, least: f64) -> [f64; 2] {
+        let is_open = |v: &f64| *v >= least;
+        let places = [self.at.iter().position(is_open), self.at.iter().rposition(is_open)];
+        let time = |place: usize| self.times[0] + (self.times[3] - self.times[0]) * place as f64 / FINE as f64;
+        places.map(|place| time(place.expect("it opens")))
+    }
+
     pub fn exposure(&self) -> f64 {
         self.sums[FINE]
     }
@@ -166,7 +139,7 @@ impl Truth {
     }
 
     /// The mean around a time.
-    pub fn mean(&self, t: f64, width: f64) -> f64 {
+    fn mean(&self, t: f64, width: f64) -> f64 {
         (self.collected(t + 0.5 * width) - self.collected(t - 0.5 * width)) / width
     }
 
@@ -180,72 +153,6 @@ impl Truth {
     }
 }
 
-/// A cubic Bezier with these inner control points.
-pub fn bezier([x1, y1, x2, y2]: [f64; 4]) -> Ramp {
-    let cubic = |a: f64, b: f64, p: f64| {
-        let r = 1.0 - p;
-        3.0 * r * r * p * a + 3.0 * r * p * p * b + p * p * p
-    };
-    Box::new(move |z| {
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..50 {
-            let p = 0.5 * (low + high);
-            if cubic(x1, x2, p) < z { low = p } else { high = p }
-        }
-        cubic(y1, y2, low)
-    })
-}
-
-/// The uncovered part of a circle behind an edge that has gone so far across it.
-pub fn circle(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    ((1.0 - 2.0 * x).acos() - (1.0 - 2.0 * x) * 2.0 * (x * (1.0 - x)).sqrt()) / std::f64::consts::PI
-}
-
-pub fn truth(shutter: Shutter, random: &mut Random) -> Truth {
-    let start = random.within(0.15, 0.35);
-    let length = random.within(0.3, 0.5);
-    let (a, b) = (random.within(0.05, 0.45) * length, random.within(0.05, 0.45) * length);
-    let times = [start, start + a, start + length - b, start + length];
-    let straight = || -> Ramp { Box::new(|z| z) };
-    let controls = |random: &mut Random| [0; 4].map(|_| random.within(0.0, 1.0));
-    match shutter {
-        Shutter::Box => Truth::new(straight(), straight(), [start, start, start + length, start + length]),
-        Shutter::Trapezoid => Truth::new(straight(), straight(), times),
-        // The blades start from rest and uncover a round pupil; they come back at their own pace.
-        Shutter::Leaf => {
-            let (p, q) = (random.within(1.0, 2.0), random.within(1.0, 2.0));
-            let blade = |p: f64| -> Ramp { Box::new(move |z| circle(z.powf(p))) };
-            Truth::new(blade(p), blade(q), times)
-        }
-        // A round hole whose radius grows, evenly or with a smooth start.
-        Shutter::Iris => {
-            let (p, q) = (random.within(1.0, 1.5), random.within(1.0, 1.5));
-            let radius = |p: f64| -> Ramp { Box::new(move |z| z.powf(2.0 * p)) };
-            Truth::new(radius(p), radius(q), times)
-        }
-        // Driven open in an exponential, relaxing in a slower one with a tail of ten time constants.
-        Shutter::LiquidCrystal => {
-            let (rise, fall) = (random.within(0.02, 0.06), random.within(0.03, 0.08));
-            let (rise, fall) = (rise * length, fall * length);
-            let open = start + 10.0 * rise;
-            let close = open.max(start + random.within(0.4, 0.7) * length);
-            let end = (1.0f64 - 2e-2).min(close + 10.0 * fall);
-            let (tau, tail) = (rise / (open - start), fall / (end - close));
-            Truth::new(
-                Box::new(move |z| 1.0 - (-z / tau).exp()),
-                Box::new(move |z| (-(1.0 - z) / tail).exp()),
-                [start, open, close, end],
-            )
-        }
-        Shutter::Symmetric => {
-            let controls = controls(random);
-            Truth::new(bezier(controls), bezier(controls), times)
-        }
-        Shutter::Cubic => Truth::new(bezier(controls(random)), bezier(controls(random)), times),
-    }
-}
-
 /// A trace with its truth, which is in the time of the trace.
 pub struct Case {
     pub truth: Truth,
@@ -254,8 +161,14 @@ pub struct Case {
     pub scale: f64,
     /// The noise's share of the light.
     pub noise: f64,
-    /// Another exposure that is as true: of shots that differ, and of those of which one is fitted.
-    pub others: Vec<f64>,
+    /// Another exposure that is as true: of shots of which one is fitted.
+    pub other: Option<f64>,
+    /// The simplest kind that has the shutter's curve, if any has it.
+    pub kind: Option<Kind>,
+    /// Start to open, open, start to close, closed, as far as it is known.
+    pub times: Option<[f64; 4]>,
+    /// Errors up to this share of the exposure are not wrong.
+    pub allowed: f64,
 }
 
 impl Case {
@@ -275,45 +188,148 @@ impl Case {
     }
 }
 
-pub fn case(shutter: Shutter, disturbance: Disturbance, random: &mut Random) -> Case {
-    let truth = truth(shutter, random);
-    let n = random.scale(400.0, 4000.0) as usize;
-    let noise = random.scale(0.003, 0.02);
-    traced(truth, disturbance, n, noise, random)
+/// The noise from one sample to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grain {
+    White,
+    /// It grows with the light.
+    Shot,
+    /// An autoregressive noise, 0.8 from one sample to the next.
+    Coloured,
+    /// 1/f noise, by octaves of which each changes half as often as the one above (Voss and McCartney).
+    Octaves,
+    /// 1/f noise, by sines of random frequencies, so many to a decade.
+    Sines,
 }
 
-pub fn traced(truth: Truth, disturbance: Disturbance, n: usize, noise: f64, random: &mut Random) -> Case {
-    let (scale, dark) = (random.scale(1e-4, 10.0), random.within(-1.0, 1.0));
-    let light = random.scale(0.05, 5.0) * if random.within(0.0, 1.0) < 0.3 { -1.0 } else { 1.0 };
-    // One detector shows the moment, the other what it has gathered since its last sample.
-    let gathers = random.within(0.0, 1.0) < 0.5;
-    let step = 1.0 / n as f64;
-    let (periods, phase) = (random.scale(3.0, 30.0), random.within(0.0, 6.3));
-    let hum = random.scale(0.005, 0.03);
-    let drift = random.within(-0.05, 0.05);
-    let mut last = random.normal();
-    let mut octaves = [0; OCTAVES].map(|_| random.normal());
-    let mut values = Vec::with_capacity(n);
-    for i in 0..n {
-        let t = (i as f64 + 0.5) * step;
-        let f = if gathers { truth.mean(t, step) } else { truth.openness(t) };
-        let fresh = random.normal();
-        last = match disturbance {
-            Disturbance::Coloured => 0.8 * last + 0.6 * fresh,
-            // Each octave changes half as often as the one above (Voss and McCartney).
-            Disturbance::Pink => {
-                octaves[(i.max(1).trailing_zeros() as usize).min(OCTAVES - 1)] = fresh;
-                octaves.iter().sum::<f64>() / (OCTAVES as f64).sqrt()
+impl Grain {
+    /// So many samples of a standard deviation of 1.
+    fn samples(self, n: usize, random: &mut Random) -> Vec<f64> {
+        const OCTAVES: usize = 12;
+        const LINES: usize = 160;
+        let mut white: Vec<f64> = (0..n).map(|_| random.normal()).collect();
+        match self {
+            Self::White | Self::Shot => (),
+            Self::Coloured => (1..n).for_each(|i| white[i] = 0.8 * white[i - 1] + 0.6 * white[i]),
+            Self::Octaves => {
+                let mut octaves = [0; OCTAVES].map(|_| random.normal());
+                for (i, v) in white.iter_mut().enumerate() {
+                    octaves[(i.max(1).trailing_zeros() as usize).min(OCTAVES - 1)] = *v;
+                    *v = octaves.iter().sum::<f64>() / (OCTAVES as f64).sqrt();
+                }
             }
-            _ => fresh,
-        };
-        let beside = match disturbance {
-            Disturbance::Hum => hum * (std::f64::consts::TAU * periods * t + phase).sin(),
-            Disturbance::Drift => drift * t,
-            _ => 0.0,
-        };
-        values.push(dark + light * (f + noise * last + beside));
+            Self::Sines => {
+                white.fill(0.0);
+                for k in 0..LINES {
+                    let place = (k as f64 + random.within(0.0, 1.0)) / LINES as f64;
+                    let step = TAU * 0.3 * (n as f64 / 0.6).powf(place) / n as f64;
+                    let (high, phase) = ((2.0 / LINES as f64).sqrt(), random.within(0.0, TAU));
+                    let waves = white.iter_mut().enumerate();
+                    waves.for_each(|(i, v)| *v += high * (step * i as f64 + phase).sin());
+                }
+            }
+        }
+        white
     }
-    let times = (0..n).map(|i| scale * (i as f64 + 0.5) * step).collect();
-    Case { truth, trace: Trace { times, values }, scale, noise, others: Vec::new() }
+}
+
+/// A function of time, where the trace is from 0 to 1.
+pub type Over = Box<dyn Fn(f64) -> f64>;
+
+/// What makes a trace of a truth.
+pub struct Recorder {
+    /// Of a shot, which lasts so many seconds; there may be several, and those of odd places last so many times as long.
+    pub samples: f64,
+    pub scale: f64,
+    pub shots: usize,
+    pub ratio: f64,
+    /// Full light, and the dark beside it.
+    pub gain: f64,
+    pub dark: f64,
+    pub noise: f64,
+    pub grain: Grain,
+    /// It shows what it has gathered since its last sample, not the moment.
+    pub gathers: bool,
+    /// By what the light is multiplied, and what is added to the signal.
+    pub lamp: Over,
+    pub beside: Over,
+    /// Capacitors, by one over their time constants.
+    pub poles: Vec<f64>,
+    /// The most that its amplifier shows; is the noise, but for a tenth, from before it?
+    pub clip: f64,
+    pub is_clipped_with_noise: bool,
+    /// So many steps of the values in full light.
+    pub steps: f64,
+    /// By how much of a sample times are off.
+    pub jitter: f64,
+    /// The share of the trace from where to where is lost.
+    pub lost: Range<f64>,
+}
+
+impl Recorder {
+    /// An undisturbed one.
+    pub fn new(samples: f64, scale: f64, noise: f64) -> Self {
+        Self {
+            samples,
+            scale,
+            shots: 1,
+            ratio: 1.0,
+            gain: 1.0,
+            dark: 0.0,
+            noise,
+            grain: Grain::White,
+            gathers: true,
+            lamp: Box::new(|_| 1.0),
+            beside: Box::new(|_| 0.0),
+            poles: Vec::new(),
+            clip: f64::INFINITY,
+            is_clipped_with_noise: false,
+            steps: 1e9,
+            jitter: 0.0,
+            lost: 0.0..0.0,
+        }
+    }
+
+    pub fn record(&self, truth: Truth, random: &mut Random) -> Case {
+        let (mut times, mut values, mut from) = (Vec::new(), Vec::new(), 0.0);
+        let mut charges = vec![0.0; self.poles.len()];
+        for shot in 0..self.shots {
+            let longer = if shot % 2 == 1 { self.ratio } else { 1.0 };
+            let n = (self.samples * longer) as usize;
+            let grain = self.grain.samples(n, random);
+            // Many parts of a sample, so that no capacitor sees a staircase.
+            let parts = if self.gathers { 8 } else { 1 };
+            let width = 1.0 / (n * parts) as f64;
+            for (i, grain) in grain.into_iter().enumerate() {
+                let mut light = 0.0;
+                for part in 0..parts {
+                    let t = ((i * parts + part) as f64 + 0.5) * width;
+                    let open = if self.gathers { truth.mean(t, width) } else { truth.openness(t) };
+                    let mut v = open * (self.lamp)(t);
+                    for (charge, rate) in charges.iter_mut().zip(&self.poles) {
+                        let now = v + (*charge - v) * (-rate * width * longer).exp();
+                        (v, *charge) = (v - 0.5 * (now + *charge), now);
+                    }
+                    light += v / parts as f64;
+                }
+                let t = (i as f64 + 0.5) / n as f64;
+                let seen = if self.grain == Grain::Shot { (0.1 + 0.9 * light.max(0.0)).sqrt() } else { 1.0 };
+                let noise = self.noise * grain * seen;
+                let shown = match self.is_clipped_with_noise {
+                    true => (light + noise).min(self.clip) + 0.1 * self.noise * random.normal(),
+                    false => light.min(self.clip) + noise,
+                };
+                let shown = ((shown + (self.beside)(t)) * self.steps).round() / self.steps;
+                let late = self.jitter * random.within(-1.0, 1.0) / n as f64;
+                if !self.lost.contains(&t) {
+                    times.push(from + self.scale * longer * (t + late));
+                    values.push(self.dark + self.gain * shown);
+                }
+            }
+            from += self.scale * longer;
+        }
+        let other = (self.shots > 1).then(|| self.ratio * self.scale * truth.exposure());
+        let trace = Trace { times, values };
+        Case { truth, trace, scale: self.scale, noise: self.noise, other, kind: None, times: None, allowed: 0.0 }
+    }
 }

@@ -19,5 +19,6 @@ mod generator;
 mod integral;
 mod judge;
 mod physics;
-mod unseen;
+mod picture;
+mod shutters;
 mod words;
