@@ -52,9 +52,10 @@ fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
     let explains = |found: &KindFit| structure(&fits.with(found.clone()), Kind::Free).test.explained;
     let alone = humming(plain);
     let line = fit(fits, &Signal { drift: Some(0.0), ..plain.solution.signal });
-    // Behind a capacitor the dark is lower after the pulse than before.
-    let [before, after] = dark(&fits.samples, plain).map(|part| mean(&plain.residuals[part]));
-    let may_be_coupled = after < before && plain.solution.signal.coupling.is_none();
+    // Behind a capacitor the dark is lower after the pulse than before; a curve that takes all the dark hides that.
+    let dark = dark(&fits.samples, plain).map(|part| &plain.residuals[part]);
+    let is_lower = dark.iter().any(|part| part.is_empty()) || mean(dark[1]) < mean(dark[0]);
+    let may_be_coupled = is_lower && plain.solution.signal.coupling.is_none();
     let coupled = may_be_coupled.then(|| coupled(fits)).flatten();
     if let Some(coupled) = &coupled {
         let [by_line, by_dark] = [&line, coupled].map(|found| by_dark(fits, found));
@@ -95,7 +96,7 @@ fn drifts_before(found: &KindFit, samples: &[Bin]) -> bool {
     left.len() < 8 || slope.abs() <= UNLIKE * (variance / squares).sqrt()
 }
 
-/// With the strongest hum, if that is in the dark as well: what is in the pulse alone is the shutter's own.
+/// With the strongest hum, if that stands out.
 fn humming(fits: &FrameFits, without: &KindFit, mains: Option<f64>) -> Option<KindFit> {
     let (signal, bins) = (without.solution.signal, fits.bins());
     let with = |hum| if_worth_it(fits, &Signal { hum: Some(hum), ..signal }, without);
