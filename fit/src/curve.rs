@@ -191,19 +191,7 @@ impl Exposure {
 
     /// `∫ f dt` up to a time.
     pub fn amount(&self, t: f64) -> f64 {
-        let Curve { opening, plateau, closing, .. } = self.curve;
-        let [start, open_end, close_start, end] = self.curve.times();
-        let [opened, closed] = self.whole.each_ref().map(|whole| whole.area);
-        if t <= start {
-            0.0
-        } else if t < open_end {
-            opening * self.ramps[0].area((t - start) / opening)
-        } else if t <= close_start {
-            opening * opened + (t - open_end)
-        } else {
-            let z = if t < end { (end - t) / closing } else { 0.0 };
-            opening * opened + plateau + closing * (closed - self.ramps[1].area(z))
-        }
+        self.collected(t).amount
     }
 
     /// The same, and how it moves with each parameter.

@@ -73,11 +73,6 @@ impl UnitRamp {
         cubic(self.y, self.place(z))
     }
 
-    /// The area alone.
-    pub fn area(&self, z: f64) -> f64 {
-        up_to(&self.area, self.place(z))
-    }
-
     pub fn reaches(&self, openness: f64) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..40 {
