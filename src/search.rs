@@ -138,8 +138,8 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// [`from_log`] is too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as often
-/// too small as too great.
+/// [`from_log`] is too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as
+/// often too small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.

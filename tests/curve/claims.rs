@@ -17,7 +17,8 @@ const HELD: &[(&str, &[&str])] = &[
     ]),
     ("tests/curve/promises.rs::aimed_curves", &[
         "never gives an earlier time", "ever decrease", "never overlap", "the same for every number of octaves",
-        "always the same", "the same bits with every number", "each pulse sends equal light", "Their errors are counted in a larger unit",
+        "always the same", "the same bits with every number", "each pulse sends equal light",
+        "Their errors are counted in a larger unit",
     ]),
     ("tests/curve/promises.rs::designs", &["has a promise for every curve"]),
     ("tests/curve/refusals.rs::fractions_and_times_beyond_the_curve", &[

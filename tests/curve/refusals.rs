@@ -166,7 +166,8 @@ fn messages() {
          "the interval is too short for its distance from time 0: below 2^-16 of its greatest time; \
           count times from a nearer origin"),
         (E::IntervalOutOfRange, "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)"),
-        (E::DensityTooSmall, "the density's exposure is below 2^-20 of its interval; scale it up (CubicBezier::scaled)"),
+        (E::DensityTooSmall,
+         "the density's exposure is below 2^-20 of its interval; scale it up (CubicBezier::scaled)"),
         (E::TooShort(Closing),
          "closing ramp: it is shorter than 2^-24 of the greatest time; make it longer, or give it no length"),
     ] {

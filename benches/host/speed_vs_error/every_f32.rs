@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use shutter_curve::ShutterCurve;
 
 use crate::support::cases::{CASES, DIM, shutter};
-use crate::support::oracle::{Curve, Exact};
-use crate::support::promise::{CDF_FLOOR, DENSITY_FLOOR};
+use crate::support::oracle::{Curve, Exact, ulp_f32};
+use crate::support::promise::{CDF_FLOOR, DENSITY_FLOOR, LEAST_FRACTION};
 
 const CURVES: [&str; 5] = ["ends of order p^6", "handles cross by 15/16", "a vertical step", "times from -1 to 1", DIM];
 
@@ -17,10 +17,16 @@ const JUDGED: i64 = 65_537;
 type Function = (&'static str, fn(&ShutterCurve, f32) -> f32, fn(&Exact, f32, f32) -> f64);
 
 const FUNCTIONS: [Function; 3] = [
-    ("inverse_cdf", ShutterCurve::inverse_cdf, |exact, u, t| exact.judge(u, t).backward),
+    ("inverse_cdf", ShutterCurve::inverse_cdf, backward),
     ("cdf", ShutterCurve::cdf, |exact, t, cdf| exact.near(t).cdf_ulp(cdf, CDF_FLOOR)),
     ("openness", ShutterCurve::openness, |exact, t, f| exact.near(t).openness_ulp(f, DENSITY_FLOOR)),
 ];
+
+/// In ulp of the fraction; below the least that a frame has in 2⁻⁴⁵, half of which is promised there.
+fn backward(exact: &Exact, u: f32, t: f32) -> f64 {
+    let error = exact.judge(u, t).backward;
+    if u < LEAST_FRACTION { error * ulp_f32(u.into()) / 2f64.powi(-45) } else { error }
+}
 
 /// Prints a line for each sweep. An openness may fall.
 pub fn every_f32() {
@@ -42,7 +48,7 @@ fn at(place: i64) -> f32 {
     if place < 0 { -size } else { size }
 }
 
-/// Asks for every `f32` for which a function is: the answers out of range, those below the one ahead, the greatest error.
+/// Asks for every `f32` for which a function is: the answers out of range, those below the one ahead, the worst error.
 fn sweep((name, answer, error): &Function, curve: &Curve) -> [f64; 3] {
     let (ours, exact) = (shutter::<8>(curve), Exact::new(curve));
     let (fractions, times) = ([0.0, 1.0], [curve.open_start(), curve.close_end()]);

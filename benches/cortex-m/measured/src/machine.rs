@@ -1,5 +1,5 @@
-//! Where a program runs: on one of QEMU's boards with an Arm core, or in QEMU's user mode, by semihosting; on s390x, which
-//! has none, by system calls of Linux. It starts in the program's `run` and panics in its `panicked`.
+//! Where a program runs: on one of QEMU's boards with an Arm core, or in QEMU's user mode, by semihosting; on s390x,
+//! which has none, by system calls of Linux. It starts in the program's `run` and panics in its `panicked`.
 #![allow(dead_code, unreachable_code, unused_imports, reason = "a program needs a part, and some run for ever")]
 
 use core::fmt::{self, Write};
