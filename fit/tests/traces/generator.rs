@@ -238,7 +238,7 @@ pub type Over = Box<dyn Fn(f64) -> f64>;
 
 /// What makes a trace of a truth.
 pub struct Recorder {
-    /// Of a shot, which lasts so many seconds; there may be several, and those of odd places last so many times as long.
+    /// Of a shot, which lasts so many seconds; there may be several, and each other one lasts so many times as long.
     pub samples: f64,
     pub scale: f64,
     pub shots: usize,

@@ -116,7 +116,7 @@ fn share(rows: &[&Row], of: impl Fn(&Row) -> Option<f64>) -> f64 {
     known.iter().sum::<f64>() / known.len() as f64
 }
 
-/// How often the stated errors hold the truth: of triggers, exposure, efficiency, and the times of those that have some.
+/// How often the stated errors hold the truth: of triggers, exposure, efficiency, and times where there are some.
 fn coverage(rows: &[&Row]) -> [f64; 4] {
     [
         share(rows, |row| Some(row.triggers_covered)),
@@ -149,8 +149,8 @@ pub fn judge_errors(rows: &[Row], (median, most): (f64, f64)) {
 pub fn head(title: &str) {
     println!(
         "\n| {title} | traces | triggers, median; 90 % | worst trigger | exposure | covered: triggers; exposure; \
-         efficiency; times | without `unseen` | kept simple | from the trace | refused | wrong; silently | ms | warnings \
-         |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|"
+         efficiency; times | without `unseen` | kept simple | from the trace | refused | wrong; silently | ms | \
+         warnings |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|"
     );
 }
 

@@ -147,8 +147,8 @@ fn a_dip_and_a_slope_are_told() {
     assert!(held >= 56, "{held}");
 }
 
-/// So many traces of mechanics and an instrument of these places, on which nothing was tuned: wrong is also what is four
-/// times what the noise allows.
+/// So many traces of mechanics and an instrument of these places, on which nothing was tuned: wrong is also what is
+/// four times what the noise allows.
 fn unseen_rows(shutter: usize, by: usize, cases: u32, seed: u64) -> Vec<Row> {
     let (name, instrument) = INSTRUMENTS[by];
     rows(cases, 1000 + seed + (100 * shutter + by) as u64, |_, random| {
