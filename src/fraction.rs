@@ -33,7 +33,10 @@ impl Side {
 
     #[inline(always)]
     pub(crate) const fn other(self) -> Self {
-        Self::end_if(!self.is_end())
+        match self {
+            Start => End,
+            End => Start,
+        }
     }
 }
 
