@@ -9,7 +9,7 @@ use crate::fixed::{ONE, power_of_two, rounded, times};
 use crate::fraction::Side::{self, End, Start};
 use crate::ramp::Ramp;
 
-/// A place on the ramp at a side, counted from the end that faces another side.
+/// A place on the ramp at a side, counted from the end that faces the side `from`.
 struct OnRamp<'a> {
     side: Side,
     ramp: &'a Ramp,
@@ -57,6 +57,7 @@ pub(crate) fn pdf(exposure: &Exposure, t: f32) -> f32 {
 }
 
 /// The fraction of the exposure collected by `t`.
+#[allow(clippy::neg_cmp_op_on_partial_ord, reason = "of NaN it is 0")]
 #[inline]
 pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
     if t >= exposure.end_time(End) {
@@ -74,7 +75,7 @@ pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
             let way = exposure.in_units(t) - exposure.in_units(exposure.join_time(Start));
             let (significand, up) = per_area(exposure);
             // way 2^exponent / A · 2⁶², where 1 / A is significand 2^(up - 64), and `times` has the 2⁻⁶⁴. One doubling
-            // is left for after the product, or the way would not fit.
+            // is left for after the product: the way, at most A, then fits, and A has less than 2⁶² units.
             let part = times(way << ((up + exposure.units.exponent() + 61) & 63), significand) << 1;
             exposure.ramp(Start).share + if part < exposure.plateau() { part } else { exposure.plateau() }
         }

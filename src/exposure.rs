@@ -14,7 +14,7 @@ use crate::search::LEAST_ERROR;
 
 /// A search rounds its fraction to the nearest multiple of `2^-GRID`: every `f32` from 2⁻²³ on is one.
 const GRID: u32 = 46;
-/// A search collects its fraction to `2^-ERROR_SHIFT` of it, and [`LEAST_ERROR`]: so neighbouring fractions keep their
+/// A search collects its fraction to `2^-ERROR_SHIFT` of it, plus [`LEAST_ERROR`]: so neighbouring fractions keep their
 /// order (proofs/search.py).
 const ERROR_SHIFT: u32 = 27;
 
@@ -79,7 +79,7 @@ impl Exposure {
     }
 
     /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. What is
-    /// collected then differs from `a` by at most `a / 2²⁶` and 2⁻⁴⁶. Of 0, a negative number or NaN it is the end
+    /// collected then differs from `a` by at most `a / 2²⁶` plus 2⁻⁴⁶. Of 0, a negative number or NaN it is the end
     /// itself, though no light may fall there.
     #[inline(always)]
     pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {

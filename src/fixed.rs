@@ -3,8 +3,8 @@
 //! | counted | from 0 at | to |
 //! |---|---|---|
 //! | a fraction of the exposure, a mass | an end of the curve or of a ramp | [`ONE`], 2⁶², the whole exposure |
-//! | a time, *in units* | time 0 | ±2⁶² at the curve's greatest time ([`Units`]) |
-//! | a way, the time since an end, *in fine units* | an end of the curve or of a ramp | 2⁶², the whole interval |
+//! | a time, *in units* | time 0 | below ±2⁶² at the curve's greatest time ([`Units`]) |
+//! | a way, the time since an end, *in fine units* | an end of the curve or of a ramp | 2⁶¹ to 2⁶², an interval |
 //! | a place along a ramp, unsigned | one of its ends | 2⁶⁴ at the other |
 
 /// The whole exposure.
@@ -22,8 +22,8 @@ pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 22) as f32).to_bits();
 /// The bits of tops are multiples of this, an eighth of a power of two.
 pub(crate) const EIGHTH: u32 = 1 << 20;
 
-/// `a x / 2⁶⁴`, low by less than 3: two products are rounded down, a fourth is left out. For an `a` of at least
-/// 0 it never falls as `a` or `x` grows.
+/// `a x / 2⁶⁴`, low by less than 3: of four products two are rounded down, and the lowest is left out. For an `a` of
+/// at least 0 it never falls as `a` or `x` grows.
 #[inline(always)]
 pub(crate) const fn times(a: i64, x: u64) -> i64 {
     let (high, low) = (a >> 32, a as u64 & 0xFFFF_FFFF);
@@ -48,7 +48,7 @@ pub(crate) struct Units {
     /// The time of 2³² *units*. The curve's greatest |time|, or its interval if that is longer, has 2⁶¹ to 2⁶² units.
     pub(crate) word: f32,
     /// A unit is `2^fine` *fine units*, of which the interval has 2⁶¹ to 2⁶². By `domain::LEAST_INTERVAL`, `fine` is
-    /// at most 17.
+    /// at most 16.
     pub(crate) fine: u32,
 }
 
@@ -70,8 +70,8 @@ impl Units {
         exponent(self.word) - 32
     }
 
-    /// A time in units, rounded down. That costs a way two fine units at most: where a unit is more of them, no time is
-    /// nearer to 0 than a fourth of the greatest, and all times are whole units.
+    /// A time in units, rounded down. That costs a way two fine units at most: if `fine` is 2 or more, the interval is
+    /// below half of the greatest time: so each |time| is above a fourth of that, a whole number of units.
     #[inline(always)]
     pub(crate) const fn of(self, time: f32) -> i64 {
         fixed_down(time, self.exponent())
@@ -135,8 +135,8 @@ pub(crate) const fn floor_bits(x: f64) -> u32 {
     if rounded as f64 > x { bits - 1 } else { bits }
 }
 
-/// `x` in single precision, for a step: within an ulp and a half, or within 2⁸ where it is negative, as its two words
-/// then cancel. By words, as an FPU converts those.
+/// `x` in single precision, for a step: within an ulp and a half; or 2⁸ if that is more, as next below 0, where its
+/// words cancel. By words, as an FPU converts those.
 #[inline(always)]
 pub(crate) const fn single(x: i64) -> f32 {
     (x >> 32) as i32 as f32 * WORD + x as u32 as f32
@@ -162,14 +162,14 @@ pub(crate) fn rounded(x: i64, word: f32) -> f32 {
     }
 }
 
-/// [`rounded_near_0`] where it is seldom needed.
+/// [`rounded_near_0`], for callers that seldom need it.
 #[cold]
 #[inline(never)]
 fn rounded_near_0_cold(x: i64, word: f32) -> f32 {
     rounded_near_0(x, word)
 }
 
-/// The same of an `x` of fewer than 26 bits in its upper word. (`x as f32` would be a call.)
+/// [`rounded`] of an `x` of fewer than 26 bits in its upper word. (`x as f32` would be a call.)
 // proofs/words.py
 #[inline(always)]
 pub(crate) fn rounded_near_0(x: i64, word: f32) -> f32 {

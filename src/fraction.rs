@@ -56,7 +56,7 @@ impl Fraction {
     #[inline(always)]
     pub(crate) fn new(u: f32) -> Self {
         let (bits, rest) = (u.to_bits(), (1.0 - u).to_bits());
-        // Signed: a negative `u` is not late.
+        // Signed: a negative `u` is counted from the start.
         let is_late = bits as i32 > 0.5f32.to_bits() as i32;
         let bits = core::hint::select_unpredictable(is_late, rest, bits);
         Self { side: Side::end_if(is_late), bits }

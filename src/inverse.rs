@@ -9,7 +9,7 @@
 //! 5. The part of the curve where `a` is collected ([`exposure`](crate::exposure)): the plateau, below 1/512, gives the
 //!    time at once. Go to 10.
 //! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
-//! 7. The search starts from the end of the ramp whose mass is nearer.
+//! 7. The search starts from the end of the ramp from which less mass is missing.
 //! 8. The first guess: the least distance at which one term of the mass is enough ([`search`](crate::search)).
 //! 9. Halley's steps, until what they leave, measured in integers, is within the error.
 //! 10. One rounding to `f32`.
@@ -53,7 +53,7 @@ pub(crate) enum Section {
 
 impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
-        // So a fraction of 0 finds no octave: its index is a top's exponent, 105 or more (`LEAST_TOP`).
+        // At most 64: so a fraction of 0 finds no octave, as its index is a top's exponent, 105 or more (`LEAST_TOP`).
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let exposure = tried!(Exposure::new(opening, closing));
         let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
@@ -134,7 +134,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         Section::Line(self.on_line(if side.is_end() { word.wrapping_neg() } else { word }))
     }
 
-    /// The time on the plateau's line, in units, at a `u` in units of 2⁻³².
+    /// The time on the plateau's line, in units, at a `u` that counts 2⁻³².
     // proofs/words.py
     #[inline(always)]
     const fn on_line(&self, u: u32) -> i64 {
@@ -206,8 +206,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// No fraction from a side that is above this, up to 1/2, needs a search.
     ///
-    /// Tops are multiples of an eighth of a power of two, and so is [`LINE_FROM`]. From one multiple to the next only a
-    /// join can lie between: so all fractions there are as direct as the first and the last.
+    /// Tops are multiples of an eighth of a power of two, and so is [`LINE_FROM`]. Between
+    /// neighbouring multiples lie only joins, with the line: so all there are as direct as the first and the last.
     pub(crate) const fn least_direct(&self, side: Side) -> f32 {
         let mut bits = 0.5f32.to_bits();
         loop {

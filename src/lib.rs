@@ -100,9 +100,8 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` those from a time to its
-// fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and `error`,
-// which needs `text` and `rate`:
+// Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` begins from a time, and
+// `trigger/ticks.rs` makes ticks of times. Each of these needs only those before it, and `error`, `text`, `rate`:
 //
 // fixed     masses, times and places as whole numbers
 // fraction  an end of the curve, and a fraction counted from it
@@ -116,7 +115,7 @@
 // trigger   the ticks of triggers and pulses
 // shutter   the public face of all this
 //
-// Hints to the compiler stay where they pay, on a Cortex-M4F at level 3: without any `inline(always)` a schedule takes
+// Hints to the compiler stay where they pay, on a Cortex-M4F at level 3: without any `inline(always)` a frame takes
 // 22 % more cycles, and an inverse of a `static` 10 %; without any `inline(never)` the code is 26 % larger.
 //
 // Some masks (`i & 31`), branches that are never taken, and `wrapping_` operations that never wrap only show the

@@ -10,10 +10,10 @@ use crate::fixed::{WORD, power_of_two, single, times, times_up};
 const FREE_STEPS: u32 = 16;
 /// After a step of more than this share of the place, single precision tells what is missing.
 const FAR: f32 = 0.1;
-/// The most steps of a search. Each step evaluates a ramp's integral once.
+/// The most steps of a search. Each evaluates the polynomial once at most in fixed point.
 pub const MAX_EVALUATIONS: u32 = FREE_STEPS + 63;
-/// Within this error, a search for a mass always ends: between neighbouring places the mass grows by less than twice
-/// as much, less what [`Series::at`] is low by (proofs/search.py).
+/// Within this error, a search for a mass always ends: between neighbouring places the mass grows by less than 3, and
+/// [`Series::at`] is low by less than 7681, together less than twice as much (proofs/search.py).
 pub(crate) const LEAST_ERROR: i64 = 1 << 12;
 
 /// A polynomial of the place `p`, which counts as 0 to 1 here: `c[0] p + c[1] p² + ...`.
@@ -24,7 +24,7 @@ pub(crate) struct Series<'a, const N: usize> {
 }
 
 impl<const N: usize> Series<'_, N> {
-    /// The value at a place; low by less than `3 (N - 1) 2^shift` times the place, and 1.
+    /// The value at a place; low by less than `3 (N - 1) 2^shift` times the place, plus 1.
     // proofs/search.py
     #[inline(always)]
     pub(crate) const fn at(&self, p: u64) -> i64 {
@@ -89,7 +89,7 @@ impl<const N: usize> Series<'_, N> {
     }
 }
 
-/// A place from single precision; 1 and more is the greatest.
+/// A place from single precision; 1 is 2⁶⁴ - 2³², and more than 1 the greatest.
 #[inline(always)]
 const fn place(x: f32) -> u64 {
     let x = x * WORD;
@@ -112,10 +112,10 @@ const fn value<const N: usize>(c: &[f32; N], x: f32) -> f32 {
     value
 }
 
-/// Halley's step from `x` for what is missing there of `Σ c[k - 1] x^k`: `n / (1 + b)`, with Newton's step `n` and
-/// `b = n d2 / d1`, the slope and half the second derivative. Up to `b = 1/2` it is `n (1 - b + b²)`, since a division
-/// is slow. Beyond, that would grow again, and a search might swing. The place stays inside by what [`Series::solve`]
-/// makes of a step that leads out.
+/// Halley's step from `x` for what is missing there of `Σ c[k - 1] x^k`: `newton / (1 + bend)`, with Newton's step and
+/// `bend = newton d2 / 2 d1`, by both derivatives. Up to a `bend` of 1/2 it is `newton (1 - bend + bend²)`, since a
+/// division is slow. Beyond, that would grow again, and a search might swing. The place stays inside by what
+/// [`Series::solve`] makes of a step that leads out.
 #[inline(always)]
 const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
     let (mut d1, mut d2, mut k) = (c[N - 1] * N as f32, 0.0, N - 1);
@@ -131,9 +131,9 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
     if bend > 0.5 { newton / (1.0 + bend) } else { newton * (1.0 - bend * (1.0 - bend)) }
 }
 
-// The first guess: an increasing `Σ c_k x^k` reaches `sought` near the least of the `(sought / c_k)^(1/k)` over the
-// positive coefficients. The bits of an `f32`, taken as an integer, are nearly its logarithm, so a root is a quotient
-// of integers. That is good to about a tenth, and one step of Halley's makes it a thousandth.
+// The first guess: an increasing `Σ c_k x^k` reaches `sought` near the least `(sought / c_k)^(1/k)` of positive `c_k`.
+// An `f32`'s bits, as an integer, are nearly its logarithm: so a root is a quotient of integers, good to a tenth.
+// Where a term outweighs the others, so is the guess, and one step of Halley's makes that a thousandth.
 
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;

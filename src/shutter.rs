@@ -32,7 +32,7 @@ use crate::trigger::timed::TimedCurve;
 ///
 /// # Octaves
 ///
-/// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles: 1/4 to 1/2, 1/8 to 1/4, and so on.
+/// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles; where it begins depends on the ramp.
 /// Above 1/2 the same holds for `1 - u`. The curve stores a polynomial for each of the widest octaves that lie on a
 /// ramp: up to `OCTAVES` of them below 1/2, and as many above. They answer most fractions on ramps, and a search
 /// answers the rest.
@@ -260,8 +260,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// time. A larger frame may need none either. Pulses may need searches even in smaller frames.
     ///
     /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
-    /// double it, up to 2²². It is 0 on curves that are too difficult for polynomials, or, with `OCTAVES = 0`, if the
-    /// middle of the exposure lies on a ramp. A frame of any size may then need searches.
+    /// double it, up to 2 796 202. It is 0 on curves that are too difficult for polynomials, or, with `OCTAVES = 0`, if
+    /// the middle of the exposure lies on a ramp. A frame of any size may then need searches.
     ///
     /// A constant can check the number at compile time:
     ///

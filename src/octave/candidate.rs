@@ -13,8 +13,8 @@ pub(crate) const NODES: [f32; DEGREE + 1] =
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
-/// What a time is off by, in units, as the side's end is rounded down. A neighbour that is searched needs no more to
-/// stay in order (proofs/search.py).
+/// What a time is off by, in units, as the side's end is rounded down. That is also enough for order
+/// next to a neighbour that is searched (proofs/search.py).
 const UNITS_OFF: f32 = 1.0;
 
 /// An octave, and how its polynomial is held against the exact time.
@@ -22,7 +22,7 @@ pub(crate) struct Candidate {
     pub(crate) octave: Octave,
     /// The time of the octave's middle since the side's end.
     pub(crate) middle_time: f64,
-    /// The unit of the coefficients, as a time: the factor's size, in units of time.
+    /// The unit of the coefficients: `|factor|` units, in the curve's unit of time.
     pub(crate) lsb: f64,
     /// A bound of the polynomial's slope, in lsb for a width.
     pub(crate) slope_bound_lsb: f32,
@@ -31,7 +31,7 @@ pub(crate) struct Candidate {
 }
 
 /// The polynomial along a stretch. The unit of its coefficients, the *lsb*, is the least power of two in which Horner's
-/// sums fit 32 bits, but at least a unit of time. None if its numbers are out of range.
+/// sums fit 32 bits, but at least a unit. None if its numbers are out of range.
 pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidate> {
     let (span, c) = (&stretch.span, interpolated(stretch));
     // |x| <= reach, with room for a center's rounding.
@@ -66,7 +66,7 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
         k -= 1;
     }
     let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * lsb, unit_exponent);
-    // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
+    // Nearly a time of the ramp. Where it is at most 2⁶², the sum below fits, as `end` is below that.
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }

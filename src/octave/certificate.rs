@@ -14,8 +14,8 @@ pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// least an ulp of the lesser one apart.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// How far off a fraction may be in a look-up, since joins are rounded: next to a ramp with nearly all of the exposure
-/// by three roundings of an `f64`, as the area has two.
+/// How far off a fraction may be in a look-up, since joins are rounded. A share has three roundings of an `f64`, two
+/// of the area and one of the quotient; they count most for a ramp with nearly all of the exposure.
 // proofs/certificate.py
 pub(crate) const JOIN_OFF: f32 = 3.0 / (1u64 << 53) as f32;
 /// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 512 times as great, with 60
@@ -89,7 +89,7 @@ struct PerLsb {
     forward: f32,
     /// On the ramp.
     backward: [f32; 4],
-    /// Where the way from the exact time to the polynomial's lies beyond the ramp's join or crosses it: as if all of it
+    /// Where the gap from the exact time to the polynomial's lies beyond the ramp's join or crosses it: as if all of it
     /// were at openness 1. 0 if the stretch does not reach the join, or the curve ends there.
     backward_beyond: f32,
     /// What rounding adds to an error in time, in lsb.

@@ -34,7 +34,7 @@ pub(crate) mod span;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     pub(crate) middle: i64,
-    /// A power of two, at most 2³⁰, or minus that from the later side; 0 where there is no polynomial.
+    /// A power of two, at most 2³⁰, or minus that from `Side::End`; 0 where there is no polynomial.
     pub(crate) factor: i32,
     /// A position. Its lowest 5 bits are the shift as well.
     pub(crate) center: i32,

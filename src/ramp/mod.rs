@@ -19,8 +19,8 @@ const MASS_SHIFT: u32 = 9;
 /// Those of a way count `2^WAY_SHIFT` fine units: they are up to six times as great as the interval.
 const WAY_SHIFT: u32 = 3;
 
-/// In [`Ramp::place_of_time`] a way errs by at most `2^-TIME_SHIFT` of the time, and this many fine units. The share is
-/// of a time in units, which are one fine unit each or more: so it is a quarter ulp of the time or less.
+/// In [`Ramp::place_of_time`] a way errs by at most `|time| / 2^TIME_SHIFT` plus `LEAST_WAY_ERROR`, in fine units. The
+/// time is in units, of one fine unit or more: so the first term is a quarter ulp of the time or less.
 const TIME_SHIFT: u32 = 26;
 const LEAST_WAY_ERROR: i64 = 32;
 
@@ -40,7 +40,7 @@ pub(crate) struct Ramp {
 }
 
 impl Ramp {
-    /// A ramp of a curve with one over its area.
+    /// `per_area` is one over the curve's area, `share` this ramp's part of the exposure.
     pub(crate) const fn new(bezier: &CubicBezier, per_area: f64, share: i64, units: Units) -> Self {
         let powers = [Shape::new(bezier, Side::Start).exposure(), Shape::new(bezier, Side::End).exposure()];
         let (mut mass, mut k) = ([[0; 6]; 2], 0);
@@ -74,7 +74,7 @@ impl Ramp {
     }
 
     /// The time, in units, by which a part of the exposure has been collected since the end that faces a side, within
-    /// an error of the part; and the evaluations of the search. It starts from the end whose mass is nearer.
+    /// an error of the part; and the evaluations of the search. It starts from the end from which less is missing.
     #[inline(always)]
     pub(crate) const fn time_of_part(&self, side: Side, part: i64, error: i64, units: Units) -> (i64, u32) {
         let rest = self.share - part;
@@ -90,7 +90,7 @@ impl Ramp {
         (if from.is_end() { end - way } else { end + way }, evaluations)
     }
 
-    /// The place of a time on the ramp, counted from the end that is nearer in time, which comes first.
+    /// The place of a time on the ramp, counted from the end that is nearer in time; that end first.
     #[inline(never)]
     pub(crate) const fn place_of_time(&self, t: f32, units: Units) -> (Side, u64) {
         let [start, end] = self.ends;

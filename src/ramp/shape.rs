@@ -24,7 +24,7 @@ impl Shape {
         Self { openness: [constant, c1, c2, c3], time: powers(times) }
     }
 
-    /// `∫ f t' dp` since the end, from the first power: the exposure.
+    /// `∫ f t' dp` since the end, from the first power: the mass, not divided by the area.
     #[inline(never)]
     pub(crate) const fn exposure(&self) -> [f64; 6] {
         // (p^k)' = k p^(k-1), and the integral divides by the next exponent.

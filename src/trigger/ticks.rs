@@ -80,12 +80,12 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
     }
 }
 
-/// The most triggers in a frame that needs no search.
+/// A number of triggers up to which no frame needs a search.
 pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>) -> u32 {
     let [first, last] = [inverse.least_direct(Side::Start), inverse.least_direct(Side::End)];
     let least = if first > last { first } else { last };
     // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed. As fractions are rounded to
-    // `f32`, 2⁻²⁴ is added, which is 2⁴⁰ in 2⁻⁶⁴. That it saturates shows the compiler that the divisor is not 0.
+    // `f32`, 2⁻²⁴, four roundings, is added: 2⁴⁰ in 2⁻⁶⁴. That it saturates shows that the divisor is not 0.
     let most = (1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40);
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
@@ -143,8 +143,8 @@ impl TickScale {
         // One bit is not worth a 64-bit shift, which takes several instructions: most curves need none.
         let up = if up > 1 { up } else { 0 };
         let zeros = rate.leading_zeros() & 31;
-        // Half ticks are delay · rate · 2^(exponent + 1), and the product is delay · rate · 2^(up + zeros - 32). All of
-        // the interval makes a product of at least 2⁶⁰ and at most 2³² half ticks: so it moves down by 28 or more.
+        // Half ticks are delay · rate · 2^(exponent + 1), and the product is delay · rate · 2^(up + zeros - 32). For
+        // the whole interval it is 2⁶⁰ or more, and half ticks are 2³² or fewer: so it moves down by 28 or more.
         let down = (up + zeros) as i32 - exponent - 33;
         // More than 63 would mean that all of the interval is tick 0, and a shift by 63 gives that, too.
         let down = if down < 63 { down as u32 } else { 63 };

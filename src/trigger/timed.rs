@@ -219,9 +219,9 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// How many ticks of the exposure each trigger needs, so that the next is surely `least` ticks later.
     ///
-    /// Openness is at most 1, so a share of the exposure takes at least its part of `exposure`, `E / n`. Two ends err
-    /// by 0.52 tick each, and by two ulp of a fraction, 2⁻²³ of `E` (accuracy.md); a rounded `part` by 2⁻²⁴ of `E`. So
-    /// 2 ticks and 2⁻²¹ of `E` are enough, and a tick for what the shift cuts of that.
+    /// Openness is at most 1, so a share of the exposure takes at least its part of `exposure`, `E / n`. Two ends err,
+    /// each by 0.52 tick and by two ulp of a fraction, at most 2⁻²³ of `E` (accuracy.md); the rounded `part` by up to
+    /// three times 2⁻²⁴ of `E`. So 2 ticks and 2⁻²¹ of `E` are enough, and a tick for what the shift cuts of that.
     const fn room(&self, least: u32) -> u32 {
         least.saturating_add(3 + (self.exposure >> 21))
     }

@@ -15,7 +15,7 @@ pub const LEAST_FRACTION: f32 = 1.0 / (1 << 23) as f32;
 pub const BACKWARD_FLOOR: f64 = 1.0 / (1u64 << 45) as f64;
 /// On typical curves, in ulp of the time; and its mean over the named ones.
 pub const FORWARD: f64 = 0.69;
-pub const FORWARD_MEAN: f64 = 0.215;
+pub const FORWARD_MEAN: f64 = 0.227;
 /// Of `cdf`, `openness` and `pdf`, in ulp at some time within an ulp of the one asked for.
 pub const VALUE: f64 = 1.0;
 /// Of `exposure`, `normalization` and `efficiency`, in ulp.
