@@ -184,11 +184,12 @@ pub(crate) fn measure(
     }
     let starts = synced.iter().map(|it| &it.starts);
     let bounced = starts.clone().map(|it| it.bounced).sum();
+    let is_cut = starts.clone().any(|it| it.is_cut);
     let edges = starts.clone().map(|it| it.others).sum();
     let bounces = starts.map(|it| it.bounces).fold(0.0, f64::max);
     let missing = if is_given { 0 } else { all - n };
     let doubts = [
-        (bounced, Warning::SyncBounced { few: bounced, all: shots.len(), by: bounces }),
+        (bounced, Warning::SyncBounced { few: bounced, all: shots.len(), by: bounces, is_cut }),
         (missing, Warning::SyncMissing { few: missing, all }),
         (edges, Warning::SyncOthers { edges }),
         (late, Warning::SyncLate { few: late, all: n, by }),

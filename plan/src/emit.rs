@@ -25,9 +25,9 @@ pub enum Form {
     Rust,
     /// A header with the ticks, in C99 and C++11
     C,
-    /// A row for each trigger
+    /// A row for each trigger; from_edge_ticks count from the edge, and all other ticks as the module's table does
     Csv,
-    /// The plan's facts, and an object for each trigger
+    /// The plan's facts, and an object for each trigger, with ticks as in a row
     Json,
 }
 

@@ -159,6 +159,21 @@ fn a_bounce_is_told_with_its_end() {
     }
 }
 
+/// In a record of one shot that begins while the contact is still closed, its release looks like an edge that bounces.
+#[test]
+fn a_contact_that_is_still_closed_is_told() {
+    let (folder, record) = (Folder::new("held"), Record { length: 0.006, ..Record::new(1, 11) });
+    let on = record.levels[1];
+    folder.write("held.csv", record.rewritten(|[t, light, sync]| [t, light, if t < 0.003 { on } else { sync }]));
+    folder.run("fit held.csv --sync CH2").tells(&["still closed", "(--from and --to)"]);
+    let json = folder.json("held.csv --sync CH2 --from 4ms");
+    assert!(codes(&json).is_empty(), "{json}");
+    assert!((number(&json, "delay_s") - record.mean()).abs() < 3e-6, "{json}");
+    folder.write("bounces.csv", Record { bounces: true, ..record }.csv());
+    let bounces = folder.json("bounces.csv --sync CH2");
+    assert!(codes(&bounces) == ["sync_bounced"] && !bounces.to_string().contains("still closed"), "{bounces}");
+}
+
 /// The level at the beginning need not be the one at rest.
 #[test]
 fn a_record_may_begin_in_the_middle_of_a_shot() {

@@ -47,6 +47,8 @@ pub struct Starts {
     pub bounced: usize,
     /// From a frame's first edge to its last, in seconds, at most.
     pub bounces: f64,
+    /// The one frame's edges do not come in pairs: the record begins or ends while the sync is active.
+    pub is_cut: bool,
     /// So many start no frame.
     pub others: usize,
     /// So many start a frame that is half open before.
@@ -121,7 +123,8 @@ impl Starts {
             before = crossings[5];
         }
         let others = bursts.len() - of.iter().flatten().count();
-        Self { of, bounced, bounces, others, late, is_clock }
+        let is_cut = frames.len() == 1 && all.len() % 2 == 1;
+        Self { of, bounced, bounces, is_cut, others, late, is_clock }
     }
 
     fn faults(&self) -> usize {

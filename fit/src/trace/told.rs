@@ -168,10 +168,10 @@ messages! {
         "two columns hold a pulse: {taken} is taken for the light, and {other} is not";
     /// An edge of the sync was followed by others, as if a contact bounced, at so many of all shots, for so long at
     /// most.
-    SyncBounced { few: usize, all: usize, by: f64 }
+    SyncBounced { few: usize, all: usize, by: f64, is_cut: bool } [is_cut.then_some(Remedy::From)]
         "the sync switches more than once at {few} of {}, the last time some {} after the first: its contact may \
-         bounce, as it closes or as it opens; the first edge counts, so let the firmware take no other for so long",
-        counted(all, "shot"), time(by);
+         bounce, as it closes or as it opens{}; the first edge counts, so let the firmware take no other for so long",
+        counted(all, "shot"), time(by), cut(is_cut);
     SyncMissing { few: usize, all: usize }
         "{few} of {} of this speed have no edge of the sync before them, and do not count in the delay; check the \
          lead",
@@ -391,6 +391,13 @@ fn time(seconds: &f64) -> String {
 
 fn percent(share: &f64) -> String {
     format!("{} %", short(100.0 * share, 2))
+}
+
+fn cut(is_cut: &bool) -> &'static str {
+    match is_cut {
+        true => ", or the record begins while it is still closed, and a part from later on or more shots help",
+        false => "",
+    }
 }
 
 fn counted(n: &usize, thing: &str) -> String {
