@@ -44,11 +44,11 @@ pub(crate) const fn check(opening: &CubicBezier, closing: &CubicBezier) -> Resul
     tried!(check_points(opening, Part::Opening));
     tried!(check_points(closing, Part::Closing));
     // A ramp that is the whole curve does not meet another part, and the openness of one without length does not count.
-    let ([.., opened], [closing, ..]) = (opening.opennesses(), closing.opennesses());
+    let ([.., opened], [still_open, ..]) = (opening.opennesses(), closing.opennesses());
     if start < open && open < end && opened < 1.0 {
         return Err(CurveError::NotFullyOpen(Part::Opening));
     }
-    if start < close && close < end && closing < 1.0 {
+    if start < close && close < end && still_open < 1.0 {
         return Err(CurveError::NotFullyOpen(Part::Closing));
     }
     Ok(())

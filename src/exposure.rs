@@ -35,16 +35,16 @@ impl Exposure {
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
         tried!(domain::check(opening, closing));
         let ([start, _, _, open], [close, _, _, end]) = (opening.times(), closing.times());
-        let plateau = close as f64 - open as f64;
+        let plateau_time = close as f64 - open as f64;
         let areas = [area(opening), area(closing)];
-        let whole = (areas[0] + areas[1]) + plateau;
+        let whole = (areas[0] + areas[1]) + plateau_time;
         if whole < LEAST_EXPOSURE * (end as f64 - start as f64) {
             return Err(CurveError::DensityTooSmall);
         }
-        let near = fixed_towards_0(areas[0] / whole, -62);
-        let far = if plateau > 0.0 { fixed_towards_0(areas[1] / whole, -62) } else { ONE - near };
+        let first = fixed_towards_0(areas[0] / whole, -62);
+        let last = if plateau_time > 0.0 { fixed_towards_0(areas[1] / whole, -62) } else { ONE - first };
         let (units, per_area) = (Units::new(start, end), 1.0 / whole);
-        let ramps = [Ramp::new(opening, per_area, near, units), Ramp::new(closing, per_area, far, units)];
+        let ramps = [Ramp::new(opening, per_area, first, units), Ramp::new(closing, per_area, last, units)];
         // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. From
         // u = 1/512 on an ulp of `u` is 2⁻³² or more, and the slope is 2⁴⁰ units or more, by the rules of `domain`: so
         // an ulp takes 2⁸ units. The line is off by a few, and what an `f64` rounds of the areas (proofs/domain.py).

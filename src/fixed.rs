@@ -102,9 +102,9 @@ pub(crate) const fn fixed_down(x: f32, e: i32) -> i64 {
 /// An `x` from 0 to 1 in 2⁻⁶⁰, rounded down: by halves, each exact, as an FPU converts 32 bits.
 #[inline(always)]
 pub(crate) const fn in_2_60(x: f32) -> i64 {
-    let half = power_of_two(30);
-    let upper = (x * half) as i32;
-    ((upper as i64) << 30) + ((x * half - upper as f32) * half) as i32 as i64
+    let two_30 = power_of_two(30);
+    let upper = (x * two_30) as i32;
+    ((upper as i64) << 30) + ((x * two_30 - upper as f32) * two_30) as i32 as i64
 }
 
 /// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN.

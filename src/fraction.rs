@@ -57,9 +57,9 @@ impl Fraction {
     pub(crate) fn new(u: f32) -> Self {
         let (bits, rest) = (u.to_bits(), (1.0 - u).to_bits());
         // Signed: a negative `u` is counted from the start.
-        let is_late = bits as i32 > 0.5f32.to_bits() as i32;
-        let bits = core::hint::select_unpredictable(is_late, rest, bits);
-        Self { side: Side::end_if(is_late), bits }
+        let is_from_end = bits as i32 > 0.5f32.to_bits() as i32;
+        let bits = core::hint::select_unpredictable(is_from_end, rest, bits);
+        Self { side: Side::end_if(is_from_end), bits }
     }
 
     /// `part / whole`, where `part + rest = whole`, by the lesser of the two. Half is counted from the start.

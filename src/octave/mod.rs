@@ -48,8 +48,8 @@ pub(crate) const DEGREE: usize = 8;
 pub(crate) const SHIFT_MASK: i32 = 31;
 
 /// The bits of the top at an index, from those of the one at index 0; 0 if that is too small.
-pub(crate) const fn top_at(top: u32, octaves: usize) -> u32 {
-    top.saturating_sub((octaves as u32) << 23)
+pub(crate) const fn top_at(top: u32, index: usize) -> u32 {
+    top.saturating_sub((index as u32) << 23)
 }
 
 impl Octave {

@@ -102,11 +102,11 @@ impl<'a> Path<'a> {
         let Span { middle, half, power, .. } = span;
         let first = self.place((middle - half) as f64, false);
         let last = self.place((middle + half) as f64, true);
-        let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
+        let (middle_p, half_p) = (0.5 * (first + last), 0.5 * (last - first));
         let Self { mut openness, mut time, fraction: mut position, .. } = *self;
-        recentred(&mut openness, middle, half);
-        recentred(&mut time, middle, half);
-        recentred(&mut position, middle, half);
+        recentred(&mut openness, middle_p, half_p);
+        recentred(&mut time, middle_p, half_p);
+        recentred(&mut position, middle_p, half_p);
         position[0] -= power as f64;
         scale(&mut position, (WORD / power) as f64, 1.0);
         Stretch {

@@ -86,8 +86,8 @@ const fn snapped(start: f64, end: f64, fraction: f32, from: f32, to: f32) -> f32
     let (fraction, from, to) = (fraction as f64, from as f64, to as f64);
     // From the nearer end, so that 0 and 1 are exact.
     let time = if fraction < 0.5 { start + (end - start) * fraction } else { end - (end - start) * (1.0 - fraction) };
-    let on_ramp = if time < from { from } else { to };
-    let on_ramp = if time >= from && time <= to { time } else { on_ramp };
+    let nearer = if time < from { from } else { to };
+    let on_ramp = if time >= from && time <= to { time } else { nearer };
     let greatest = if -start > end { -start } else { end };
     let rounding = (2.0 * greatest + 3.0 * (end - start)) / (1 << 24) as f64;
     (if (time - on_ramp).abs() <= rounding { on_ramp } else { time }) as f32

@@ -90,22 +90,22 @@ pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTA
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
 
-/// The least `e` for which the time `length · 2^exponent` is at most 2^e ticks.
-const fn exponent_of_ticks(length: u64, rate: u32, exponent: i32) -> i32 {
-    // Of the 96 bits of length · rate the upper 64, rounded up.
-    let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, rate as u64);
-    let ticks = high * rate + (low * rate).div_ceil(1 << 32);
-    96 - ticks.wrapping_sub(1).leading_zeros() as i32 + exponent
+/// The least `e` for which the time `length_units · 2^exponent` is at most 2^e ticks.
+const fn exponent_of_ticks(length_units: u64, rate: u32, exponent: i32) -> i32 {
+    // Of the 96 bits of length_units · rate the upper 64, rounded up.
+    let (high, low, rate) = (length_units >> 32, length_units & 0xFFFF_FFFF, rate as u64);
+    let product = high * rate + (low * rate).div_ceil(1 << 32);
+    96 - product.wrapping_sub(1).leading_zeros() as i32 + exponent
 }
 
 /// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
 #[cold]
 #[inline(never)]
-const fn too_high(length: u64, rate: u32, exponent: i32) -> ScheduleError {
+const fn too_high(length_units: u64, rate: u32, exponent: i32) -> ScheduleError {
     let (mut max, mut fail) = (0, rate);
     while fail - max > 1 {
         let middle = max + (fail - max) / 2;
-        let fits = exponent_of_ticks(length, middle, exponent) <= TICK_BITS;
+        let fits = exponent_of_ticks(length_units, middle, exponent) <= TICK_BITS;
         *(if fits { &mut max } else { &mut fail }) = middle;
     }
     ScheduleError::RateTooHigh { max: Hz(max) }
@@ -134,12 +134,12 @@ impl TickScale {
         let curve = &inverse.exposure;
         let [start_units, end_units] =
             [curve.in_units(curve.end_time(Side::Start)), curve.in_units(curve.end_time(Side::End))];
-        let (length, exponent) = ((end_units - start_units) as u64, curve.units.exponent());
-        if exponent_of_ticks(length, rate, exponent) > TICK_BITS {
-            return Err(too_high(length, rate, exponent));
+        let (length_units, exponent) = ((end_units - start_units) as u64, curve.units.exponent());
+        if exponent_of_ticks(length_units, rate, exponent) > TICK_BITS {
+            return Err(too_high(length_units, rate, exponent));
         }
         // An interval has 2⁴⁵ units at least (`domain::LEAST_INTERVAL`), and 2⁶² at most.
-        let up = length.leading_zeros().wrapping_sub(1) & 31;
+        let up = length_units.leading_zeros().wrapping_sub(1) & 31;
         // One bit is not worth a 64-bit shift, which takes several instructions: most curves need none.
         let up = if up > 1 { up } else { 0 };
         let zeros = rate.leading_zeros() & 31;
