@@ -6,6 +6,7 @@ use crate::bins::Bin;
 use crate::curve::Exposure;
 use crate::frame::FrameFits;
 use crate::hum;
+use crate::lag;
 use crate::missed::{Parts, missed};
 use crate::noise::mean;
 use crate::outcome::{Fit, From, Test};
@@ -13,6 +14,8 @@ use crate::signal::{Kind, Signal};
 use crate::structure::{UNSEEN, Walk};
 use crate::trace::{Frame, Warning, least_step};
 
+/// A capacitor that is taken for a drift of this share of the light moves the triggers by a per mille.
+const LARGE: f64 = 0.015;
 /// A tail has to sink by so many standard deviations, and to have this share of the exposure.
 const TAIL: f64 = 8.0;
 const LITTLE: f64 = 0.003;
@@ -30,7 +33,7 @@ pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -
         coupled(fit),
         if frame.is_cut { cut_tail(fit, fits) } else { None },
         slow_tail(fit, fits),
-        drift(fit),
+        drift(fit, fits),
         if is_pulsed { None } else { lost_ramps(fit, fits.correlation, frame, step) },
         if full_is_given { None } else { no_plateau(fit) },
         misfit(fit),
@@ -167,9 +170,22 @@ fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     is_told.then_some(Warning::SlowTail { share: first, with: fit.exposure.value + seconds })
 }
 
-fn drift(fit: &Fit) -> Option<Warning> {
-    let (signal, times) = (fit.best().signal, &fit.samples.times);
-    let amount = signal.drift? * (times[times.len() - 1] - times[0]) / signal.gain;
+/// A drift; one that a capacitor explains as well, within two standard deviations, and that moves the triggers, is
+/// doubted.
+fn drift(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
+    let signal = fit.best().signal;
+    let times = &fit.samples.times;
+    let length = times[times.len() - 1] - times[0];
+    let amount = signal.drift? * length / signal.gain;
+    let fitted = fits.of(fit.chosen);
+    let noise = fitted.variance() * fits.correlation;
+    let charge = lag::charge(&fitted.solution, fits.bins());
+    let (charge, line) = lag::falls(&fitted.solution, fits.bins(), &charge)?;
+    // Slow noise drifts as well.
+    let is_large = amount.abs() > LARGE.max(3.0 * fit.best().rms);
+    if is_large && charge > line - 4.0 * noise {
+        return Some(Warning::DriftOrCapacitor { amount });
+    }
     Some(Warning::Drift { amount })
 }
 

@@ -57,7 +57,15 @@ pub fn strongest(bins: &[Bin], signal: &Signal, hertz: Option<f64>, second: f64)
         let tries = (2.0 * (high - low) / period).ceil().max(1.0);
         let apart = (high - low) / tries;
         let all = (0..=tries as usize).map(|k| sine(&missed, low + k as f64 * apart, range));
-        all.reduce(|a, b| if b.0 > a.0 { b } else { a }).map(|(_, hum)| hum)
+        let best = all.reduce(|a, b| if b.0 > a.0 { b } else { a })?.1;
+        // Between its neighbours, by golden section.
+        let mut a = (best.frequency - apart).max(low);
+        let mut b = (best.frequency + apart).min(high);
+        for _ in 0..20 {
+            let (c, d) = (b - 0.618 * (b - a), a + 0.618 * (b - a));
+            if sine(&missed, c, range).0 > sine(&missed, d, range).0 { b = d } else { a = c }
+        }
+        Some(sine(&missed, 0.5 * (a + b), range).1)
     };
     ranges(bins, hertz, second).into_iter().filter_map(best_in).collect()
 }
@@ -68,18 +76,27 @@ fn missed(bins: &[Bin], signal: &Signal) -> Vec<(f64, f64, f64)> {
     each.map(|(bin, missed)| (bin.middle(), missed, bin.samples)).collect()
 }
 
-/// Is a signal's hum no part of the noise: beyond what sines of higher frequencies would explain of the rest, of which
-/// 1/f noise has nearly as much?
+/// Is a signal's hum no part of the shutter or of the noise: as strong in the dark as on the whole, and beyond what
+/// sines of higher frequencies would explain of the rest, of which 1/f noise has nearly as much?
 pub fn is_one(bins: &[Bin], signal: &Signal) -> bool {
     let Some(hum) = signal.hum else { return false };
+    let (start, end) = (signal.curve.start, signal.curve.end());
     let missed = missed(bins, signal);
     let above = ABOVE.map(|k| hum.frequency + f64::from(k) / length(bins));
     let usual = above.map(|frequency| sine(&missed, frequency, hum.range).0).iter().sum::<f64>();
-    let alone: Vec<_> = missed.iter().map(|(t, _, weight)| (*t, hum.at(*t), *weight)).collect();
-    let power = sine(&alone, hum.frequency, hum.range).0;
+    let mut all: Vec<_> = missed.iter().map(|(t, _, weight)| (*t, hum.at(*t), *weight)).collect();
+    let power = sine(&all, hum.frequency, hum.range).0;
+    for (sine, (_, miss, _)) in all.iter_mut().zip(&missed) {
+        sine.1 += miss;
+    }
+    all.retain(|(t, ..)| *t < start || *t > end);
+    let (_, alone) = sine(&all, hum.frequency, hum.range);
+    // The part of it that is in phase.
+    let shared = alone.cosine * hum.cosine + alone.sine * hum.sine;
+    let share = shared / hum.amplitude().powi(2);
     // The fewer its periods, the more has 1/f noise at its frequency than above.
     let beyond = if periods(bins, &hum) < 2.0 * FEWEST { SHORT_STANDS_OUT } else { STANDS_OUT };
-    power * ABOVE.len() as f64 > beyond * usual
+    (0.5..2.0).contains(&share) && power * ABOVE.len() as f64 > beyond * usual
 }
 
 /// The best sine of a frequency beside a level, and by how much it lowers the sum of squares.

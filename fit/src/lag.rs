@@ -99,6 +99,12 @@ pub fn score(pattern: &[f64], missed: &[f64], bins: &[Bin]) -> (f64, f64) {
     (along, square)
 }
 
+/// What a capacitor's charge takes from each bin: as much as has come by then, to first order.
+pub fn charge(solution: &Solution, bins: &[Bin]) -> Vec<f64> {
+    let exposure = Exposure::new(&solution.signal.curve);
+    bins.iter().map(|bin| -exposure.amount(bin.middle())).collect()
+}
+
 /// What the sum of squares falls by with a pattern in place of the signal's drift and hum, and what with these; less
 /// than nothing where the pattern would have to be turned round.
 pub fn falls(solution: &Solution, bins: &[Bin], pattern: &[f64]) -> Option<(f64, f64)> {

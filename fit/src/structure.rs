@@ -161,7 +161,9 @@ impl Light<'_> {
         if in_dark.len() < 4 {
             return None;
         }
-        let slow = mean_square(&in_pulse) / (fast(pulse) + 1e-12);
+        // As far as noise does not spread a step's rounding, a whole plateau may be off by it.
+        let rounding = self.fits.rounding * self.fits.rounding;
+        let slow = (mean_square(&in_pulse) - rounding).max(0.0) / (fast(pulse) + 1e-12);
         let usual = (mean_square(&in_dark) + 1e-12 / length as f64) / (fast(&dark) + 1e-12);
         // Blocks of either sign cancel, but for the root of their number.
         let size = mean_square(&in_pulse).sqrt();

@@ -273,6 +273,10 @@ messages! {
         "too few samples, or too much noise, to see a dip, a slope or a tail of less than {} of the light; the ± \
          allow for it; sample faster, or average several shots",
         percent(share);
+    DriftOrCapacitor { amount: f64 }
+        "the dark is {:.2} % of the light {} after the pulse than before: a drift, as which it is taken out, or a \
+         capacitor before the recorder (AC), which would move the triggers; couple it for DC, or record more dark",
+        100.0 * amount.abs(), if *amount < 0.0 { "lower" } else { "higher" };
     /// No model passes the samples as closely as their noise allows: the greatest structure that is left, and how long
     /// after the opening; are exposure and triggers the trace's own?
     Misfit { share: f64, after: f64, by_trace: bool } [Remedy::Picture]
