@@ -30,7 +30,7 @@ pub fn run() -> Result {
         ("schedule, soft", cycles(Schedule, SOFT), 9000.0),
         ("schedule, all ramp", cycles(Schedule, ALL_RAMP), 11_200.0),
         ("building a curve, soft", cycles(Construct, SOFT), 2.95e6),
-        ("inverse, worst", worst(InverseCdf, false), 2190.0),
+        ("inverse, worst", worst(InverseCdf, false), 2090.0),
         ("inverse, worst without a search", worst(InverseCdf, true), 131.0),
         ("inverse of a static, worst without a search", worst(Static, true), 143.0),
         ("tick, worst", worst(Tick, false), 2240.0),
