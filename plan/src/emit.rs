@@ -139,17 +139,17 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
                 return Err(format!("{key}: {a} in {first}, {b} in {name}; one list is for one timer"));
             }
         }
+        let [of_a, of_b] = [a, b].map(|plan| plan.sync.delay);
+        let differ = format!("{first} and {name} differ; one list is for one");
+        if of_a.zip(of_b).is_some_and(|(a, b)| a.falls != b.falls) {
+            return Err(format!("sync_falls: {differ} edge"));
+        }
         if form == Form::Csv {
             continue;
         }
-        let [of_a, of_b] = [a, b].map(|plan| plan.sync.delay);
         if of_a.is_some() != of_b.is_some() {
             let (has, lacks) = if of_a.is_some() { (first, name) } else { (name, first) };
             return Err(format!("delay: {has} has one and {lacks} has none; an array needs all or none"));
-        }
-        let differ = format!("{first} and {name} differ; an array is for one");
-        if of_a.map(|it| it.falls) != of_b.map(|it| it.falls) {
-            return Err(format!("sync_falls: {differ} edge"));
         }
         if a.scene.flashes.set_up != b.scene.flashes.set_up {
             return Err(format!("set_up: {differ} set-up"));

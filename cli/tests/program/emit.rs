@@ -316,10 +316,10 @@ fn speeds_that_do_not_go_together_are_refused() {
     for (changes, reason) in [
         ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; one list is for one timer"),
         ("", "delay: 1-500 has one and box has none; an array needs all or none"),
-        ("delay = 1; sync_falls = false", "sync_falls: 1-500 and box differ; an array is for one edge"),
+        ("delay = 1; sync_falls = false", "sync_falls: 1-500 and box differ; one list is for one edge"),
         (
             "delay = 1; sync_falls = true; set_up = 'in_path'",
-            "set_up: 1-500 and box differ; an array is for one set-up",
+            "set_up: 1-500 and box differ; one list is for one set-up",
         ),
         (
             "delay = 1; sync_falls = true; pulse = 0.1",
@@ -328,9 +328,10 @@ fn speeds_that_do_not_go_together_are_refused() {
     ] {
         assert_eq!([Form::Rust, Form::C].map(|form| refused(form, &with(changes))), [reason; 2]);
     }
-    // A row tells no rate, and an object does.
+    // A row tells neither rate nor edge, and an object does.
     let plans = with("timer_hz = 999");
     assert!(refused(Form::Csv, &plans).starts_with("timer_hz: "));
+    assert!(refused(Form::Csv, &with("delay = 1; sync_falls = false")).starts_with("sync_falls: "));
     assert!(several(Form::Json, "camera", &plans, false).is_ok());
     let mut plans = speeds(["1-500", "box", "slow speed"], "");
     plans[1].0 = "Slow-Speed".into();
