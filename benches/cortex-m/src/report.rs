@@ -8,11 +8,11 @@ use crate::measure::Measured;
 
 use measured::Function::{
     Cdf, Construct, Construct0, InverseCdf, InverseCdf0, InverseCdf4, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm,
-    Static, Table, Tick,
+    SqrtMicromath, Static, Table, Tick,
 };
 
 /// The calls as the reader knows them; the last are the baselines.
-const CALLS: [(&str, Function); 12] = [
+const CALLS: [(&str, Function); 13] = [
     ("`inverse_cdf`", InverseCdf),
     ("`inverse_cdf` of a `static`", Static),
     ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf0),
@@ -24,6 +24,7 @@ const CALLS: [(&str, Function); 12] = [
     ("Newton, nearer end", NearerEnd),
     ("linear table of 256", Table),
     ("`libm::sqrtf`", SqrtLibm),
+    ("`micromath` `sqrt`", SqrtMicromath),
     ("the FPU's square root", SqrtFpu),
 ];
 

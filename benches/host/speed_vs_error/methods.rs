@@ -26,13 +26,14 @@ pub struct Method {
 }
 
 #[rustfmt::skip]
-pub const METHODS: [Method; 7] = [
+pub const METHODS: [Method; 8] = [
     method("`inverse_cdf`, `OCTAVES = 0`", BLUE, ours::<0>),
     method("`inverse_cdf`, `OCTAVES = 4`", BLUE, ours::<4>),
     method("`inverse_cdf`", BLUE, ours::<8>),
     method("Newton, nearer end", VERMILION, nearer_end),
     method("linear table of 256", VERMILION, table),
     method("`libm::sqrtf`", GREY, |curve| root(curve, libm::sqrtf)),
+    method("`micromath` `sqrt`", GREY, |curve| root(curve, micromath::F32Ext::sqrt)),
     method("the FPU's square root", GREY, |curve| root(curve, f32::sqrt)),
 ];
 

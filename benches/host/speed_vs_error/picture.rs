@@ -17,6 +17,7 @@ const NAMES: [(i32, i32, HPos); METHODS.len()] = [
     (0, 59, HPos::Center),
     (-9, -5, HPos::Right),
     (-14, 54, HPos::Center),
+    (9, 0, HPos::Left),
     (-9, 10, HPos::Right),
 ];
 

@@ -59,13 +59,13 @@ macro_rules! functions {
     };
 }
 functions! {
-    InverseCdf InverseCdf0 InverseCdf4 Static Cdf Openness Tick Schedule Construct Construct0 NearerEnd Table SqrtLibm
-    SqrtFpu
+    InverseCdf InverseCdf0 InverseCdf4 Static Cdf Openness Tick Schedule Construct Construct0 NearerEnd Table
+    SqrtLibm SqrtMicromath SqrtFpu
 }
 
 impl Function {
     pub fn is_for_straight_ramps(self) -> bool {
-        matches!(self, Self::SqrtLibm | Self::SqrtFpu)
+        matches!(self, Self::SqrtLibm | Self::SqrtMicromath | Self::SqrtFpu)
     }
 
     pub fn builds(self) -> bool {
@@ -79,7 +79,7 @@ impl Function {
             Self::InverseCdf4 => size_of::<ShutterCurve<4>>(),
             Self::NearerEnd => size_of::<baseline::NearerEnd>(),
             Self::Table => size_of::<baseline::InverseTable<256>>(),
-            Self::SqrtLibm | Self::SqrtFpu => size_of::<baseline::StraightRamps>(),
+            Self::SqrtLibm | Self::SqrtMicromath | Self::SqrtFpu => size_of::<baseline::StraightRamps>(),
             _ => size_of::<ShutterCurve>(),
         }
     }

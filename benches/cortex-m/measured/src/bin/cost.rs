@@ -165,6 +165,7 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
             each(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
         }
         Function::SqrtLibm => by_square_roots(us, data, libm::sqrtf),
+        Function::SqrtMicromath => by_square_roots(us, data, micromath::F32Ext::sqrt),
         Function::SqrtFpu => by_square_roots(us, data, sqrt),
     }
 }
