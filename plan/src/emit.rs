@@ -129,7 +129,8 @@ fn set_ups(plan: &Plan) -> String {
     }
 }
 
-/// What rows must have in common: the timer; an array's elements also what they tell, and names of their own.
+/// What rows must have in common: the timer, the edge and the set-up, which no row tells; and names of their own. An
+/// array's elements also tell the same.
 fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
@@ -144,6 +145,13 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
         if of_a.zip(of_b).is_some_and(|(a, b)| a.falls != b.falls) {
             return Err(format!("sync_falls: {differ} edge"));
         }
+        if a.scene.flashes.set_up != b.scene.flashes.set_up {
+            return Err(format!("set_up: {differ} set-up"));
+        }
+        let called = |name: &String| if form == Form::Csv { name.clone() } else { identifier(name) };
+        if let Some((other, _)) = plans[..i].iter().find(|(other, _)| called(other) == called(name)) {
+            return Err(format!("{other} and {name} would both be called {}", called(name)));
+        }
         if form == Form::Csv {
             continue;
         }
@@ -151,15 +159,8 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
             let (has, lacks) = if of_a.is_some() { (first, name) } else { (name, first) };
             return Err(format!("delay: {has} has one and {lacks} has none; an array needs all or none"));
         }
-        if a.scene.flashes.set_up != b.scene.flashes.set_up {
-            return Err(format!("set_up: {differ} set-up"));
-        }
         if a.lamp.has_pulses() != b.lamp.has_pulses() {
             return Err(format!("pulses: one of {first} and {name} has them; an array needs all or none"));
-        }
-        let called = identifier(name);
-        if let Some((other, _)) = plans[..i].iter().find(|(other, _)| identifier(other) == called) {
-            return Err(format!("{other} and {name} would both be called {called}"));
         }
     }
     Ok(())

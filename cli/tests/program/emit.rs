@@ -328,10 +328,14 @@ fn speeds_that_do_not_go_together_are_refused() {
     ] {
         assert_eq!([Form::Rust, Form::C].map(|form| refused(form, &with(changes))), [reason; 2]);
     }
-    // A row tells neither rate nor edge, and an object does.
+    // A row tells neither rate nor edge nor set-up, and an object does.
     let plans = with("timer_hz = 999");
     assert!(refused(Form::Csv, &plans).starts_with("timer_hz: "));
     assert!(refused(Form::Csv, &with("delay = 1; sync_falls = false")).starts_with("sync_falls: "));
+    assert!(refused(Form::Csv, &with("set_up = 'in_path'")).starts_with("set_up: "));
+    let plans = [plans[0].clone(), plans[0].clone()];
+    assert_eq!(refused(Form::Csv, &plans), "1-500 and 1-500 would both be called 1-500");
+    let plans = with("timer_hz = 999");
     assert!(several(Form::Json, "camera", &plans, false).is_ok());
     let mut plans = speeds(["1-500", "box", "slow speed"], "");
     plans[1].0 = "Slow-Speed".into();
