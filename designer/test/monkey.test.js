@@ -31,11 +31,13 @@ async function play({ seed, count }) {
   const handles = () => [...document.querySelectorAll('g.handle')].filter((it) => it.style.display !== 'none');
   const drag = () => {
     const handle = pick(handles());
-    handle.setPointerCapture = () => {};
+    // As a browser does, what follows goes to the handle that captures the pointer: the nearest, not always this one.
+    let captor = handle;
+    for (const it of handles()) it.setPointerCapture = () => { captor = it; };
     const { x, y, width, height } = handle.lastChild.getBoundingClientRect();
     const send = (type, dx, dy) => {
       const at = { clientX: x + width / 2 + dx, clientY: y + height / 2 + dy };
-      handle.dispatchEvent(new PointerEvent(type, { bubbles: true, pointerId: 1, button: 0, ...at }));
+      captor.dispatchEvent(new PointerEvent(type, { bubbles: true, pointerId: 1, button: 0, ...at }));
     };
     const [dx, dy] = [random(900) - 450, random(600) - 300];
     send('pointerdown', 0, 0);
