@@ -65,7 +65,7 @@ const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     let (mut trial, mut best, mut most) = (0, 0, 0.0);
     loop {
         let is_last = trial == MOVES.len();
-        let top = top_beyond(range, MOVES[if is_last { best } else { trial }]);
+        let top = top_beyond(range, MOVES[if is_last { best } else { trial } & 3]);
         let (count, served, is_whole) = try_top(path, top, range, octaves);
         if is_whole || is_last {
             return (top, count);
