@@ -71,31 +71,29 @@ impl Path<'_> {
             if a < span.from || a > end || a == 0.5 && self.side == Side::End {
                 continue;
             }
-            {
-                let position = (a / f64::from(span.power) - 1.0) * f64::from(WORD);
-                let position = position.floor() as i64 as i32;
-                let time = octave.time(octave.offset(position)) - start;
-                let time = time as f64 * power_of_two_f64(self.exposure.units.exponent());
-                let served = Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
-                let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
-                // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
-                let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
-                let off = (early - served).max(served - late).hi.max(0.0);
-                let size = f64::from(self.size_of_time(time.abs()));
-                // Counted from the side, so that no bits are lost next to the later end.
-                let light = if self.side == Side::Start {
-                    exact.cdf(served) - u
-                } else {
-                    exact.complement_dd(served) - Dd::from(a)
-                };
-                let share = [
-                    off / (f64::from(FORWARD_ERROR) * size) / f64::from(bounds.forward),
-                    light.hi.abs() / error_in_u / f64::from(bounds.backward),
-                ];
-                for (greatest, share) in greatest.iter_mut().zip(share) {
-                    assert!(share <= 1.0, "{share} of {bounds:?} at {a:e}: {:?}", exact.curve());
-                    *greatest = greatest.max(share);
-                }
+            let position = (a / f64::from(span.power) - 1.0) * f64::from(WORD);
+            let position = position.floor() as i64 as i32;
+            let time = octave.time(octave.offset(position)) - start;
+            let time = time as f64 * power_of_two_f64(self.exposure.units.exponent());
+            let served = Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
+            let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
+            // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
+            let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
+            let off = (early - served).max(served - late).hi.max(0.0);
+            let size = f64::from(self.size_of_time(time.abs()));
+            // Counted from the side, so that no bits are lost next to the later end.
+            let light = if self.side == Side::Start {
+                exact.cdf(served) - u
+            } else {
+                exact.complement_dd(served) - Dd::from(a)
+            };
+            let share = [
+                off / (f64::from(FORWARD_ERROR) * size) / f64::from(bounds.forward),
+                light.hi.abs() / error_in_u / f64::from(bounds.backward),
+            ];
+            for (greatest, share) in greatest.iter_mut().zip(share) {
+                assert!(share <= 1.0, "{share} of {bounds:?} at {a:e}: {:?}", exact.curve());
+                *greatest = greatest.max(share);
             }
         }
     }
