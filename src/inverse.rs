@@ -206,8 +206,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// No fraction from a side that is above this, up to 1/2, needs a search.
     ///
-    /// Tops are multiples of an eighth of a power of two, and so is [`LINE_FROM`]. Between
-    /// neighbouring multiples lie only joins, with the line: so all there are as direct as the first and the last.
+    /// Tops are multiples of an eighth of a power of two, and so is [`LINE_FROM`]. From one multiple to the next only
+    /// joins can lie, and what is between two joins is on the line: so it is enough to ask the first and the last.
     pub(crate) const fn least_direct(&self, side: Side) -> f32 {
         let mut bits = 0.5f32.to_bits();
         loop {

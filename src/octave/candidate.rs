@@ -13,8 +13,8 @@ pub(crate) const NODES: [f32; DEGREE + 1] =
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
-/// What a time is off by, in units, as the side's end is rounded down. That is also enough for order
-/// next to a neighbour that is searched (proofs/search.py).
+/// What a time is off by, in units, as the side's end is rounded down. That is also enough for
+/// order next to a neighbour that is searched (proofs/search.py).
 const UNITS_OFF: f32 = 1.0;
 
 /// An octave, and how its polynomial is held against the exact time.

@@ -10,8 +10,7 @@ use crate::trigger::ticks::{Frame, MOST_TRIGGERS, TickScale};
 /// A curve on a timer of a known rate, from [`ShutterCurve::at`](crate::ShutterCurve::at): it plans frames of triggers
 /// and pulses, in the timer's ticks.
 ///
-/// Ticks count from the curve's `open_start`. Add your timer's count at that moment, with
-/// `wrapping_add`.
+/// Ticks count from the curve's `open_start`. Add your timer's count at that moment, with `wrapping_add`.
 ///
 /// *Triggers* divide the exposure into equal shares, and each is in the middle of its share: trigger `i` of `n` is at
 /// the fraction `u = (2i + 1) / (2n)`. Use them while the camera's own shutter stays open.
