@@ -320,4 +320,8 @@ fn fractions_and_times_beyond_the_curve() {
     assert_eq!((jumps.pdf(2.0), jumps.pdf(3.0)), (0.5, 1.5));
     let flash = ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap();
     assert_eq!((flash.openness(0.0), flash.openness(1.0)), (1.0, 1.0));
+    // A mass whose coefficients are cut is below 0 here.
+    let dim = [(0.0, 6.9078763e-18), (0.9375, 0.0), (0.0, 0.0), (1.0, 1.0)];
+    let dim = ShutterCurve::density(CubicBezier::new(dim)).unwrap();
+    assert!([2.1808408e-17, 3.1034353e-12, 2.107859e-8].iter().all(|t| dim.cdf(*t) >= 0.0));
 }
