@@ -77,13 +77,6 @@ pub struct Recording {
     pub warnings: Vec<Warning>,
 }
 
-/// The samples of one column.
-pub struct Samples {
-    pub trace: Trace,
-    pub timing: Timing,
-    pub warnings: Vec<Warning>,
-}
-
 /// A column as it is told: `column 2, "CH1"`, or `column 2 of 3, "CH1"`.
 pub fn shown((number, name): &Named, of: Option<usize>) -> String {
     let of = of.map_or(String::new(), |all| format!(" of {all}"));

@@ -1,8 +1,9 @@
 //! Of several columns, the one that holds a pulse of light.
 
 use super::pulse::{Light, pulses};
-use super::reading::{Reading, Recording, Samples, shown};
+use super::reading::{Reading, Recording, shown};
 use super::samples::{Trace, range};
+use super::times::Samples;
 use super::told::{Refusal, Warning};
 
 /// What a column may be, the likeliest signal of light last.

@@ -2,7 +2,6 @@
 //! level that stays in between.
 
 use super::numbers::Cell;
-use super::reading::Samples;
 use super::samples::{Trace, median, range};
 use super::table::{JUDGED, Table};
 use super::told::Warning;
@@ -33,6 +32,13 @@ impl Timing {
     pub(crate) fn later(&self, time: f64) -> f64 {
         self.segments.iter().rev().find(|(from, _)| *from <= time).map_or(0.0, |(_, later)| *later)
     }
+}
+
+/// The samples of one column.
+pub struct Samples {
+    pub trace: Trace,
+    pub timing: Timing,
+    pub warnings: Vec<Warning>,
 }
 
 /// A segment has so many rows at least.

@@ -3,10 +3,10 @@
 use super::asked::Options;
 use super::heads::Heads;
 use super::layout::Layout;
-use super::reading::{Clock, Recording, Samples, Told};
+use super::reading::{Clock, Recording, Told};
 use super::samples::Trace;
 use super::select::recording;
-use super::times::Timing;
+use super::times::{Samples, Timing};
 use super::told::{Refusal, Warning};
 
 /// From this length in bytes on, a recorder writes that it does not know it yet (2 or 4 GiB, less a header).
