@@ -213,7 +213,10 @@ impl Columns<'_> {
         };
         let in_unit = |unit: Unit, told: Told| Ok((time, Clock::Unit(unit), told));
         if table.is_clock(k) {
-            return in_unit(Unit::Second, Told::Format);
+            return match table.cut_second(k) {
+                Some(number) => Err(Refusal::Thousands { number }),
+                None => in_unit(Unit::Second, Told::Format),
+            };
         }
         // What a rate says of the steps of these times.
         let by_rate = step.as_ref().ok().and_then(|step| step.as_ref());

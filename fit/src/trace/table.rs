@@ -332,6 +332,19 @@ impl<'a> Table<'a> {
         texts().next().filter(|_| is_one).map(short_of)
     }
 
+    /// A time of day in whole seconds, and behind its comma what may be their fraction: as many digits in each row.
+    pub fn cut_second(&self, column: usize) -> Option<String> {
+        let of = |row: &Line<'a>| {
+            let [clock, next] = [0, 1].map(|k| self.field(row, column + k));
+            let end = next.find(|c: char| !c.is_ascii_digit()).unwrap_or(next.len());
+            let is_cut = self.form.delimiter == ',' && end > 2 && !clock.contains('.') && !next[end..].starts_with('.');
+            is_cut.then(|| (end, format!("{clock},{next}")))
+        };
+        let (digits, first) = of(self.rows().next()?)?;
+        let is_same = |row| of(row).is_some_and(|(end, _)| end == digits);
+        self.rows().take(JUDGED).all(is_same).then(|| short_of(&first))
+    }
+
     /// A column's number with the unit that stands behind it.
     pub fn number_and_unit(&self, column: usize) -> Option<String> {
         let row = self.rows().next()?;

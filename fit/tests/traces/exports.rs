@@ -122,6 +122,8 @@ const EXPORTS: &[Export] = &[
     ("", "micros:{us},light:{adc}", "", "!without a label or a unit beside each; its middle line is 'micros:6000"),
     ("", "{day} -> {adc}", "", "3 column 1 in s, by the file"),
     ("", "[{day}] {adc}", "", "2 column 1 in s, by the file"),
+    ("", "2024-12-31 {,day} -> {,v}", "", "!'2024-12-31 23:59:59,9950"),
+    ("Time,V\n", "2024-12-31 {,day},{v}", "", "!a whole number from its fraction"),
     ("Time,ms,V\n", "2024/05/01 10:00:07,{ms},{v}", "", "3 \"ms\" in ms, by its name"),
     ("", "10:07.5,{v}", "", "!'10:07.5' is no time that is read"),
     ("Time,Light\n", "2024-12-31T{day}+01:00,{v}", "", "2 in s, by the file"),
