@@ -246,10 +246,11 @@ fn a_bell_may_never_be_fully_open() {
     assert!(!told(short, |_| 0.002, 1).contains(&"no_plateau"));
 }
 
-/// 1/f noise is no hum: of 800 traces 21 had one, these among them, where a few periods had to stand out as many do.
+/// 1/f noise is no hum: of 800 traces 6 have one, and 34, these among them, if a few periods stand out no more than
+/// many.
 #[test]
 fn slow_noise_is_no_hum() {
-    for i in [54, 141, 181, 218, 288, 408, 432, 456, 512, 514] {
+    for i in [55, 83, 132, 141, 162, 201, 272, 278, 282, 285] {
         let case = tuned(TUNED[i as usize % TUNED.len()], DISTURBED[4].1, &mut Random::new(83_000 + i));
         let fit = case.fitted(&Options::default());
         assert!(fit.warnings.iter().all(|it| !it.code().contains("hum")), "{i}: {:?}", fit.warnings);
