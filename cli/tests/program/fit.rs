@@ -304,7 +304,7 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
     let (mut covered, mut stated, mut all) = (0.0, 0.0, 0.0);
     for seed in 100..116 {
         let mut random = Random::new(seed);
-        let case = traced("liquid crystal", 2000.0, 0.003, &mut random);
+        let case = traced("liquid crystal", 4000.0, 0.006, &mut random);
         let fit = case.fitted(&Options::default());
         let last = fit.triggers[15];
         covered += f64::from((last.value - case.trigger(15.5 / 16.0)).abs() <= 1.96 * last.error);
