@@ -57,15 +57,8 @@ pub fn strongest(bins: &[Bin], signal: &Signal, hertz: Option<f64>, second: f64)
         let tries = (2.0 * (high - low) / period).ceil().max(1.0);
         let apart = (high - low) / tries;
         let all = (0..=tries as usize).map(|k| sine(&missed, low + k as f64 * apart, range));
-        let best = all.reduce(|a, b| if b.0 > a.0 { b } else { a })?.1;
-        // Between its neighbours, by golden section.
-        let mut a = (best.frequency - apart).max(low);
-        let mut b = (best.frequency + apart).min(high);
-        for _ in 0..20 {
-            let (c, d) = (b - 0.618 * (b - a), a + 0.618 * (b - a));
-            if sine(&missed, c, range).0 > sine(&missed, d, range).0 { b = d } else { a = c }
-        }
-        Some(sine(&missed, 0.5 * (a + b), range).1)
+        // The fit moves the frequency between its neighbours.
+        all.reduce(|a, b| if b.0 > a.0 { b } else { a }).map(|(_, hum)| hum)
     };
     ranges(bins, hertz, second).into_iter().filter_map(best_in).collect()
 }
