@@ -141,12 +141,13 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
             }
         }
         let [of_a, of_b] = [a, b].map(|plan| plan.sync.delay);
-        let differ = format!("{first} and {name} differ; one list is for one");
-        if of_a.zip(of_b).is_some_and(|(a, b)| a.falls != b.falls) {
-            return Err(format!("sync_falls: {differ} edge"));
+        // The first one may have no edge, and those behind it two.
+        let other = |of: &Plan| of.sync.delay.zip(of_b).is_some_and(|(a, b)| a.falls != b.falls);
+        if let Some((first, _)) = plans[..i].iter().find(|(_, of)| other(of)) {
+            return Err(format!("sync_falls: {first} and {name} differ; one list is for one edge"));
         }
         if a.scene.flashes.set_up != b.scene.flashes.set_up {
-            return Err(format!("set_up: {differ} set-up"));
+            return Err(format!("set_up: {first} and {name} differ; one list is for one set-up"));
         }
         let called = |name: &String| if form == Form::Csv { name.clone() } else { identifier(name) };
         if let Some((other, _)) = plans[..i].iter().find(|(other, _)| called(other) == called(name)) {

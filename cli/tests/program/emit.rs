@@ -331,7 +331,11 @@ fn speeds_that_do_not_go_together_are_refused() {
     // A row tells neither rate nor edge nor set-up, and an object does.
     let plans = with("timer_hz = 999");
     assert!(refused(Form::Csv, &plans).starts_with("timer_hz: "));
-    assert!(refused(Form::Csv, &with("delay = 1; sync_falls = false")).starts_with("sync_falls: "));
+    let other = with("delay = 1; sync_falls = false");
+    assert!(refused(Form::Csv, &other).starts_with("sync_falls: "));
+    // The first has no edge, and the two behind it differ.
+    let plain = ("plain".into(), with("")[1].1.clone());
+    assert!(refused(Form::Csv, &[plain, other[0].clone(), other[1].clone()]).starts_with("sync_falls: 1-500 and box "));
     assert!(refused(Form::Csv, &with("set_up = 'in_path'")).starts_with("set_up: "));
     let plans = [plans[0].clone(), plans[0].clone()];
     assert_eq!(refused(Form::Csv, &plans), "1-500 and 1-500 would both be called 1-500");
