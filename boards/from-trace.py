@@ -52,11 +52,12 @@ class Shutter:
                 + (self.closing - left**2 / self.closing) / 2)
 
     def off(self, times, way):
-        """By how many seconds the worst of these flashes is off; or by which part, where it is a dose."""
+        """By how many seconds the worst of these flashes is off; with a duty, by which part of its share or dose."""
         n = len(times)
         if way == "in_path --duty 0.3":
-            share = 0.3 * self.exposure / n
-            return max(abs((self.light(off) - self.light(on)) / share - 1) for on, off in times)
+            share = self.exposure / n
+            parts = [(self.light(on) / share - i, self.light(off) / share - i) for i, (on, off) in enumerate(times)]
+            return max(max(abs(on - 0.35), abs((off - on) / 0.3 - 1)) for on, off in parts)
         if any(abs(off - on - FLASH) > 1e-12 for on, off in times):
             fail(f"a flash is no {FLASH} s long")
         if way == "in_path --fully-open":
@@ -123,7 +124,7 @@ def fires(truth, scene, way, options, falls=True, delay=None, within=3e-6):
             worst = max(worst, truth.off(pairs, way))
         if worst > (0.01 if "duty" in way else within):
             fail(f"{scene} on {board}: a flash is off by {worst}, {way}")
-        by = f"{100 * worst:.2f} % of a dose" if "duty" in way else f"{1e6 * worst:.1f} µs"
+        by = f"{100 * worst:.2f} % of a share or dose" if "duty" in way else f"{1e6 * worst:.1f} µs"
         print(f"from-trace: {scene}, {way}, on {board}: {len(frames)} frames of {count} flashes, off by up to {by}")
 
 
