@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds the firmware with its src/leaf.rs (README.md) as it is flashed, and runs it on an emulated Pico: exits with 0 only if
-# each edge of the lamp's line comes on its cycle. The first time it fetches the emulator rp2040js, 2 MB, with npm.
+# Builds the firmware with its src/leaf.rs (README.md) as it is flashed, and runs it on an emulated Pico: exits with 0
+# only if each edge of the lamp's line comes on its cycle. The first time it fetches the emulator rp2040js, 2 MB, with
+# npm.
 #
 #   .ci/thumb.sh boards/pico/run.sh     or without .ci/thumb.sh, after: rustup target add thumbv6m-none-eabi
 set -euo pipefail
