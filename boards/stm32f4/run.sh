@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the firmware with its src/leaf.rs (README.md) as it is flashed, and runs it on a model of the chip: exits with 0
-# only if each edge of the lamp's line comes on its tick. The first time it fetches the emulated processor, Python's
+# Builds the firmware with its src/leaf.rs (README.md) as it is flashed, and runs it on a model of the chip: exits with
+# 0 only if each edge of the lamp's line comes on its tick. The first time it fetches the emulated processor, Python's
 # unicorn, 16 MB.
 #
 #   .ci/thumb.sh boards/stm32f4/run.sh     or without .ci/thumb.sh, after: rustup target add thumbv7em-none-eabihf
