@@ -367,6 +367,8 @@ fn hardware_gets_nothing_that_nobody_gave() {
         ("timer_hz", &["timer_hz"][..]),
         ("min_gap", &["min_gap"]),
         (edge, &["sync_falls"]),
+        // The trace's edge is not that of another delay.
+        (&format!("{edge}delay = 4; delay = 4.2470172 -> delay = 4.2470172\nsync_falls = true"), &["sync_falls"]),
         ("set_up; timer_hz; min_gap", &["set_up", "set_up", "timer_hz", "min_gap"]),
     ] {
         let plan = planned(MEASURED, without);

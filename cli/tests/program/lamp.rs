@@ -2,7 +2,7 @@
 //! refused.
 
 use serde_json::{Value, json};
-use shutter_plan::emit::{Form, emit};
+use shutter_plan::emit::{Form, emit, several};
 use shutter_plan::lamp::SetUp;
 use shutter_plan::plan::Plan;
 
@@ -77,6 +77,10 @@ fn a_lamps_lag_is_taken_off() {
     let [late, longer] = ["0.7", "3"].map(|lag| hardware(&format!("{delay}lamp_lag = {lag}")));
     has(&report(&late), &["lamp lag     0.7 ms: the lamp is triggered so much earlier\n"], &[]);
     for form in [Form::Rust, Form::C] {
+        // What is said of all ticks of an array holds for the one that is late as well.
+        let both = [("plain".into(), hardware(delay)), ("late".into(), late.clone())];
+        let both = several(form, "both", &both, false).unwrap();
+        assert_eq!(both.matches("counted from the end of the delay").count(), 2, "{both}");
         let late = text(form, &late);
         let told =
             [" to the start of opening, less the lamp's lag.", "When to trigger, counted from the end of the delay."];

@@ -1,5 +1,6 @@
 //! docs/scene.md has each key that the program knows, and no other, and says which are required.
 
+use shutter_plan::plan::Plan;
 use shutter_plan::scene::{Flashes, Scene, Shutter};
 
 /// The keys of a table of the page, and what holds without each.
@@ -40,9 +41,26 @@ fn the_page_says_what_is_required() {
         let [shutter, flashes] = ["shutter", "flashes"].map(|table| lines(required(table).collect()));
         format!("[shutter]\n{shutter}[flashes]\n{flashes}")
     };
-    let reason = |without: &str| shutter_plan::plan::Plan::parse(&scene(without)).err().map(|fault| fault.reason());
+    let reason = |without: &str| Plan::parse(&scene(without)).err().map(|fault| fault.reason());
     assert_eq!(reason(""), None);
     for key in required("shutter").chain(required("flashes")) {
         assert_eq!(reason(key), Some(format!("{key}: it is required")));
+    }
+}
+
+/// And in no other, for each key that is a time.
+#[test]
+fn a_time_is_in_the_unit_of_its_table() {
+    let shutter = "open_start = 1@\nopen_end = 2@\nclose_start = 6@\nclose_end = 8@\ndelay = 4@\ndelay_spread = 0.1@\n\
+                   sync_falls = true\nsync_settles = 50@\nnominal = 5@\n";
+    for flashes in
+        ["lamp_lag = 0.2%\nduty = 0.5\nmin_pulse = 0.01%\n", "pulse = 0.3%\ndelay = 3%\ndelay_spread = 0.2%\n"]
+    {
+        let scene = |[ours, theirs]: [&str; 2], digits: [&str; 2]| {
+            let common = "triggers = 4\ntimer_hz = 1e6\nmin_gap = 0.1%\n";
+            let text = format!("[shutter]\nunit = '{ours}'\n{shutter}[flashes]\nunit = '{theirs}'\n{common}{flashes}");
+            Plan::parse(&text.replace('@', digits[0]).replace('%', digits[1])).unwrap().scene
+        };
+        assert_eq!(scene(["ms", "us"], ["", "e3"]), scene(["s", "s"], ["e-3", "e-3"]));
     }
 }
