@@ -239,6 +239,9 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
     let out = report(&planned(TRAPEZOID, ""));
     let none = "delay        none known: ticks count from the start of opening";
     assert!(out.contains(none) && !out.contains("from edge"), "{out}");
+    // The trace's edge is not that of another delay.
+    let own = "delay = 1; sync_falls = true; [flashes] -> [flashes]\ndelay = 2";
+    assert!(report(&planned(TRAPEZOID, own)).contains("2 s from the sync's edge (sync_falls: which?) to"));
     // The longest that fits, and one as good as none, of whose zero no sign is kept.
     let delay = |delay| Plan::parse(&with(TRAPEZOID, delay)).unwrap().sync;
     assert_eq!(delay("delay = 2147482.648").ticks + 1000, 1 << 31);
