@@ -7,7 +7,6 @@ import {
   CHOICES, FIELDS, INNER, KINDS, LAMP, STOPS, TIMES,
   inUnit, innerOf, isCount, lampOf, perSecond, tidy, timesOf, valueOf, withInner, withTimes, withValues,
 } from './scene.js';
-import { label } from './told.js';
 import { readTrace } from './trace.js';
 
 /** Begins. */
@@ -23,6 +22,10 @@ export function startForm() {
   $('flashes').addEventListener('input', ({ target }) => setTriggers(STOPS[target.value], 'flashes'));
   $('flashes').addEventListener('change', seal);
 }
+
+/** A field's name, as it stands on the page. */
+export const label = (id) =>
+  id === 'fully_open' ? 'flashes while fully open' : $(id)?.labels[0].firstChild.data.trim().replace(/,$/, '') ?? id;
 
 // The number in a field of the form; an error says why there is none.
 function readField(id, unit) {

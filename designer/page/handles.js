@@ -156,7 +156,7 @@ export class Handles {
       graph.show(model);
     };
     const escape = (event) => event.key === 'Escape' && end(event);
-    const listeners = [['pointermove', move], ['pointerup', end], ['pointercancel', end]];
+    const listeners = [['pointermove', move], ['pointerup', end], ['lostpointercapture', end]];
     for (const [name, listener] of listeners) holder.addEventListener(name, listener);
     addEventListener('keydown', escape, true);
   }

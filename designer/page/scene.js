@@ -126,7 +126,7 @@ export const innerOf = (scene) => scene.shutter.shutteropening ?? placed(STRAIGH
  * The scene with a shutter that is drawn: what was measured, and what was doubtful about that, is another's. The edge
  * of the sync stands still, so the delay ends at the new opening.
  */
-export function withShape(scene, times, inner) {
+function withShape(scene, times, inner) {
   const origin = originOf(scene), { shutter, flashes } = scene;
   const told = TIMES.map((key, i) => [key, tidy(times[i] + origin)]);
   const drawn = { ...shutter, ...Object.fromEntries(told), shutteropening: inner, measured: null };

@@ -4,6 +4,7 @@
 import { html, render } from 'lit-html';
 import { $, watch, write } from './dom.js';
 import { helps } from './export.js';
+import { label } from './form.js';
 import { go, model, tell } from './model.js';
 import { FIELDS, INNER, KINDS } from './scene.js';
 import { tellScene } from './studio.js';
@@ -26,10 +27,6 @@ export async function askProgram({ now: { scene } }) {
 /** What is told of the scene that is on the screen, once it is. */
 export const toldNow = ({ told, now }) => (told?.scene === now.scene ? told : null);
 
-/** A field's name, as it stands on the page. */
-export const label = (id) =>
-  id === 'fully_open' ? 'flashes while fully open' : $(id)?.labels[0].firstChild.data.trim().replace(/,$/, '') ?? id;
-
 // The fields that a key is about, as `flashes.triggers`.
 function fieldsOf({ key = '', inner }) {
   const name = key.split('.').pop();
@@ -42,8 +39,13 @@ const PLACES = {
 const keys = Object.keys(KINDS).filter((key) => key.includes('_') || key === 'duty');
 const NAMES = new RegExp(`\`?\\b(${keys.join('|')})\\b\`?`, 'g');
 
+// What a file says stands in quotes: `"trigger"`, a column's name.
+const QUOTED = /("[^"\n]*"|(?<!\w)'[^'\n]*'(?!\w))/;
+
 /** The program's words, with the page's names. */
-export const inWords = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g, '')
+export const inWords = (text) => text.split(QUOTED).map((part, i) => (i % 2 ? part : named(part))).join('');
+
+const named = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g, '')
   .replace(NAMES, (_, key) => PLACES[key] ?? `“${label(key)}”`)
   .replace(/(?<=\w)'(?=\w)/g, '’').replace(/\btrigger(s?)\b/g, (_, many) => (many ? 'flashes' : 'flash'));
 

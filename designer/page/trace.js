@@ -256,8 +256,8 @@ function drawRecord(record, { from, to }, unit, take) {
     box.onpointermove = (event) => {
       for (const [name, value] of Object.entries(bar(t, at(event)))) mark.setAttribute(name, value);
     };
-    box.onpointerup = box.onpointercancel = (event) => {
-      box.onpointermove = box.onpointerup = box.onpointercancel = null;
+    box.onpointerup = box.onlostpointercapture = (event) => {
+      box.onpointermove = box.onpointerup = box.onlostpointercapture = null;
       const ends = [t, at(event)].sort((a, b) => a - b).map((t) => tidy(t, 6));
       if (event.type === 'pointerup' && Math.abs(event.clientX - first) >= DRAG) take(...ends);
       else for (const [name, value] of Object.entries(shown)) mark.setAttribute(name, value);

@@ -102,6 +102,10 @@ fn remedies(scene: &Scene) -> Vec<(String, Flashes)> {
     let without_length = |flashes: &mut Flashes| {
         *flashes = Flashes { pulse: None, duty: None, min_pulse: None, fully_open: None, ..*flashes }
     };
+    let plain = match scene.flashes.fully_open {
+        Some(true) => "Flash while it opens and closes as well",
+        _ => "Use flashes without a length",
+    };
     let all = [
         (few, fewer(low).filter(|_| low > 0)),
         ("Ask for no gap".into(), with(&|flashes| flashes.min_gap = Some(0.0))),
@@ -113,7 +117,7 @@ fn remedies(scene: &Scene) -> Vec<(String, Flashes)> {
                 flashes.fully_open = Some(true);
             }),
         ),
-        ("Use flashes without a length".into(), with(&without_length)),
+        (plain.into(), with(&without_length)),
     ];
     all.into_iter().filter_map(|(words, flashes)| Some((words, flashes?))).collect()
 }

@@ -42,7 +42,7 @@ async function play({ seed, count }) {
     const [dx, dy] = [random(900) - 450, random(600) - 300];
     send('pointerdown', 0, 0);
     for (const part of [0.3, 0.7, 1]) send('pointermove', part * dx, part * dy);
-    send(pick(['pointerup', 'pointerup', 'pointercancel']), dx, dy);
+    send(pick(['pointerup', 'pointerup', 'lostpointercapture']), dx, dy);
   };
   const key = (target, key, more) =>
     target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, ...more }));
