@@ -3,7 +3,7 @@
 #
 #   .ci/thumb.sh cargo trigger
 #   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
-#   TOOLS= .ci/thumb.sh COMMAND                without the log decoder
+#   TOOLS=linux .ci/thumb.sh COMMAND           with QEMU's user mode, in place of its boards and the log decoder
 #
 # What the machine has is used as it is. A missing target is added by rustup; where that cannot fetch it, Debian's
 # compiler is unpacked into a cache folder, and so are QEMU and the log decoder if they are missing: neither is
@@ -163,31 +163,25 @@ if lacks_targets; then
     path=$compiler/bin:$bin
 fi
 
-if ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; then
+tools=" ${TOOLS-board} "
+if [[ $tools = *" board "* ]] && ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; then
     unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" \
         "some 20 MB to fetch, 80 MB unpacked, some seconds" qemu-system-arm
     wrap "$bin/qemu-system-arm" "$cache/qemu/usr/lib/$(uname -m)-linux-gnu:$cache/qemu/lib/$(uname -m)-linux-gnu" \
         "$cache/qemu/usr/bin/qemu-system-arm" -L "$cache/qemu/usr/share/qemu"
 fi
 
-# A Linux program, or one without a system, on a processor that is neither Arm's nor the machine's.
-for target in "${targets[@]}"; do
-    case $target in
-    thumb* | wasm*) continue ;;
-    esac
-    if ! command -v qemu-riscv32 >/dev/null && [ ! -x "$bin/qemu-riscv32" ]; then
-        unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" \
-            "13 MB to fetch, 100 MB unpacked, some seconds" qemu-user
-        for emulator in riscv32 s390x; do
-            wrap "$bin/qemu-$emulator" \
-                "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
-                "$cache/qemu-user/usr/bin/qemu-$emulator"
-        done
-    fi
-    break
-done
+if [[ $tools = *" linux "* ]] && ! command -v qemu-arm >/dev/null && [ ! -x "$bin/qemu-arm" ]; then
+    unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" \
+        "13 MB to fetch, 100 MB unpacked, some seconds" qemu-user
+    for emulator in arm riscv32 s390x; do
+        wrap "$bin/qemu-$emulator" \
+            "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
+            "$cache/qemu-user/usr/bin/qemu-$emulator"
+    done
+fi
 
-if [ "${TOOLS-log}" ] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
+if [[ $tools = *" board "* ]] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
     say "building defmt-print, which prints the log: a minute ..."
     # Not optimised: it has little to decode, and is sooner built.
     RUSTC=$HOST_RUSTC CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" \

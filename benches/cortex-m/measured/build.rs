@@ -1,5 +1,4 @@
-//! The curves of the tests' reference data and their hard cases, as Rust, each with its hard inputs; and the folder of
-//! the board's `memory.x`: the crate's, or this one for the board with a Cortex-M33.
+//! The curves of the tests' reference data and their hard cases, as Rust, each with its hard inputs.
 
 use std::{env, fmt::Write, fs, path::PathBuf};
 
@@ -14,13 +13,9 @@ mod support;
 const FIRST: [&str; 3] = ["rman_soft", "raised_cosine", "trapezoid"];
 
 fn main() {
-    let here = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap());
-    let target = env::var("TARGET").unwrap();
-    if target != env::var("HOST").unwrap() {
+    if env::var("TARGET").unwrap() != env::var("HOST").unwrap() {
         println!("cargo:rustc-cfg=bare");
     }
-    let map = if target.starts_with("thumbv8m") { here } else { here.join("../../..") };
-    println!("cargo:rustc-link-search={}", map.display());
 
     let cases = CASES.iter().map(|case| (case.name, false, case.curve()));
     let data = named().into_iter().map(|c| (c.name, c.kind == Kind::Typical, c.curve));

@@ -11,18 +11,17 @@ use crate::Result;
 pub struct Core {
     pub name: &'static str,
     pub target: &'static str,
-    /// A board of QEMU's with an Arm core, or for other processors its user mode.
-    runs_on: &'static str,
+    /// In its user mode. That for Arm's other cores executes these ones' instructions, too.
+    qemu: &'static str,
 }
 
-const fn core(name: &'static str, target: &'static str, runs_on: &'static str) -> Core {
-    Core { name, target, runs_on }
+const fn core(name: &'static str, target: &'static str, qemu: &'static str) -> Core {
+    Core { name, target, qemu }
 }
 
-/// A Cortex-M0+'s code, run by a Cortex-M3, which executes the same instructions.
-pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", "mps2-an385");
-pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", "mps2-an386");
-pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", "mps2-an505");
+pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", "qemu-arm");
+pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", "qemu-arm");
+pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", "qemu-arm");
 pub const IMC: Core = core("riscv32imc", "riscv32imc-unknown-none-elf", "qemu-riscv32");
 pub const IMAFC: Core = core("riscv32imafc", "riscv32imafc-unknown-none-elf", "qemu-riscv32");
 pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", "qemu-s390x");
@@ -36,14 +35,10 @@ impl Core {
         [M4F, M33, IMAFC].contains(&self)
     }
 
-    fn is_on_board(self) -> bool {
-        self.runs_on.starts_with("mps2")
-    }
-
     /// A command with the core's compiler and emulator.
     fn command(self, program: &str) -> Command {
         let mut command = Command::new(folder().join("../../.ci/thumb.sh"));
-        command.current_dir(folder()).env("TARGETS", self.target).env("TOOLS", "").arg(program);
+        command.current_dir(folder()).env("TARGETS", self.target).env("TOOLS", "linux").arg(program);
         command
     }
 
@@ -55,12 +50,10 @@ impl Core {
         if program == "cost" {
             cargo.args(["--features", "cost"]);
         }
-        // On a board each function begins at a word, since the fetch counts: else its cycles would change with what
-        // lies before it. No library of Linux's is linked, so none of its linkers is needed.
-        let flags = match self.is_on_board() {
-            true => "-C link-arg=-Tlink.x -C llvm-args=-align-all-functions=2",
-            false => "-C linker=rust-lld -C linker-flavor=ld.lld -C relocation-model=static",
-        };
+        // Each function begins at a word, since the fetch counts: else its cycles would change with what lies before it.
+        // No library of Linux's is linked, so none of its linkers is needed.
+        let flags = "-C linker=rust-lld -C linker-flavor=ld.lld -C relocation-model=static \
+            -C llvm-args=-align-all-functions=2";
         // On one processor of 32 bits overflows are checked, as they are on the host where it is debugged.
         let checks = self == IMC && program == "answers";
         cargo.env("CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS", checks.to_string());
@@ -80,17 +73,8 @@ impl Core {
 
     /// Starts a program on a file's bytes, its output and errors piped; `options` are QEMU's.
     pub fn start(self, program: &Path, input: Option<File>, options: &[&str]) -> Result<Child> {
-        let mut command = if self.is_on_board() {
-            let mut board = self.command("qemu-system-arm");
-            board.args(["-M", self.runs_on, "-nographic", "-monitor", "none", "-serial", "null"]).args(options);
-            board.args(["-semihosting-config", "enable=on,target=native", "-kernel"]);
-            board
-        } else {
-            let mut linux = self.command(self.runs_on);
-            linux.args(options);
-            linux
-        };
-        command.arg(program).stdin(input.map_or_else(Stdio::null, Stdio::from));
+        let mut command = self.command(self.qemu);
+        command.args(options).arg(program).stdin(input.map_or_else(Stdio::null, Stdio::from));
         Ok(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?)
     }
 
@@ -116,7 +100,7 @@ pub fn succeeded(output: Output) -> Result<Output> {
 
 /// What the figures depend on: the compiler and QEMU, as they name themselves, and the optimisation.
 pub fn made_with() -> Result<String> {
-    let versions = M4F.command("sh").args(["-c", "${RUSTC:-rustc} --version; qemu-system-arm --version"]).output()?;
+    let versions = M4F.command("sh").args(["-c", "${RUSTC:-rustc} --version; qemu-arm --version"]).output()?;
     let text = String::from_utf8(succeeded(versions)?.stdout)?;
     let lines: Vec<_> = text.lines().take(2).collect();
     Ok(format!("{}, opt-level {OPT_LEVEL}", lines.join(", ")))

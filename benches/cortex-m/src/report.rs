@@ -1,38 +1,14 @@
 //! The tables of `docs/internals/cost.md`.
 
-use measured::{ALL_RAMP, Function, NAMES, SOFT, TRAPEZOID, TRIGGERS};
+use measured::Function::{Cdf, InverseCdf4, Openness, Schedule, Static, Tick};
+use measured::{ALL_RAMP, FUNCTIONS, Function, NAMES, SOFT, TRAPEZOID, TRIGGERS};
 
 use crate::Result;
 use crate::firmware::{IMAFC, IMC, M0, M4F, M33, folder, made_with};
 use crate::measure::Measured;
 
-use measured::Function::{
-    Cdf, Construct, Construct0, InverseCdf, InverseCdf0, InverseCdf4, NearerEnd, Openness, Schedule, SqrtFpu, SqrtLibm,
-    SqrtMicromath, Static, Table, Tick,
-};
-
-/// The calls as the reader knows them; the last are the baselines.
-const CALLS: [(&str, Function); 13] = [
-    ("`inverse_cdf`", InverseCdf),
-    ("`inverse_cdf` of a `static`", Static),
-    ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf0),
-    ("`inverse_cdf`, `OCTAVES = 4`", InverseCdf4),
-    ("`cdf`", Cdf),
-    ("`openness`", Openness),
-    ("a tick", Tick),
-    ("a schedule", Schedule),
-    ("Newton, nearer end", NearerEnd),
-    ("linear table of 256", Table),
-    ("`libm::sqrtf`", SqrtLibm),
-    ("`micromath` `sqrt`", SqrtMicromath),
-    ("the FPU's square root", SqrtFpu),
-];
-
-const BUILDING: [(&str, Function); 2] =
-    [("building, `OCTAVES = 0`", Construct0), ("building, `OCTAVES = 8`", Construct)];
-
 pub fn write() -> Result {
-    let functions: Vec<Function> = CALLS.into_iter().chain(BUILDING).map(|(_, of)| of).collect();
+    let functions: Vec<Function> = FUNCTIONS.iter().map(|(of, _)| *of).collect();
     let m4f = Measured::new(M4F, &functions, TRAPEZOID + 1, &functions)?;
     // On hard curves some triggers of a schedule are searched for: else that code would not run.
     let others = [M33, M0, IMAFC, IMC].map(|core| {
@@ -104,7 +80,7 @@ fn grouped(number: f64) -> String {
 }
 
 fn cycles(m4f: &Measured) -> String {
-    let rows = CALLS.map(|(name, of)| {
+    let rows = FUNCTIONS.iter().filter(|(of, _)| !of.builds()).map(|&(of, name)| {
         let means = (0..=TRAPEZOID).map(|curve| m4f.mean(of, curve).map(|[_, cycles]| format!("{cycles:.0}")));
         let worst = [false, true].map(|is_direct| m4f.worst(of, is_direct).map(|cycles| cycles.to_string()));
         let bytes = [m4f.code(of).map(|bytes| bytes.to_string()), Some(of.data_bytes().to_string())];
@@ -113,21 +89,18 @@ fn cycles(m4f: &Measured) -> String {
     table(&format!("call | {} | worst | direct | code, bytes | data, bytes", NAMES.join(" | ")), rows)
 }
 
-/// A row for each call, a column for each core.
-fn by_core(
-    head: &str,
-    cores: &[&Measured],
-    calls: &[(&str, Function)],
-    cell: impl Fn(&Measured, Function) -> Option<String>,
-) -> String {
+/// A row for each function that has figures, a column for each core.
+fn by_core(head: &str, cores: &[&Measured], cell: impl Fn(&Measured, Function) -> Option<String>) -> String {
     let names: Vec<_> = cores.iter().map(|core| core.name.replace("Cortex-", "")).collect();
-    let rows = calls.iter().map(|(name, of)| (name.to_string(), cores.iter().map(|core| cell(core, *of)).collect()));
-    table(&format!("{head} | {}", names.join(" | ")), rows)
+    let rows = FUNCTIONS.iter().map(|(of, name)| {
+        let cells: Vec<_> = cores.iter().map(|core| cell(core, *of)).collect();
+        cells.iter().any(Option::is_some).then(|| (name.to_string(), cells))
+    });
+    table(&format!("{head} | {}", names.join(" | ")), rows.flatten())
 }
 
 fn instructions(cores: &[&Measured]) -> String {
-    let calls: Vec<_> = CALLS.into_iter().filter(|(_, of)| *of != InverseCdf4).collect();
-    by_core("soft; all ramp", cores, &calls, |core, of| {
+    by_core("soft; all ramp", cores, |core, of| {
         let curves = if of.is_for_straight_ramps() { &[TRAPEZOID][..] } else { &[SOFT, ALL_RAMP] };
         let means = curves.iter().map(|curve| Some(grouped(core.mean(of, *curve)?[0])));
         Some(means.collect::<Option<Vec<_>>>()?.join("; "))
@@ -135,10 +108,11 @@ fn instructions(cores: &[&Measured]) -> String {
 }
 
 fn bytes(cores: &[&Measured]) -> String {
-    let building = by_core("instructions", cores, &BUILDING, |core, of| Some(grouped(core.mean(of, SOFT)?[0])));
-    let calls = CALLS.into_iter().filter(|(_, of)| matches!(of, Static | Cdf | Openness | Tick | Schedule));
-    let rows: Vec<_> = BUILDING.into_iter().chain(calls).collect();
-    let bytes = by_core("bytes of code; stack", cores, &rows, |core, of| {
+    let building = by_core("instructions", cores, |core, of| {
+        of.builds().then(|| Some(grouped(core.mean(of, SOFT)?[0]))).flatten()
+    });
+    let bytes = by_core("bytes of code; stack", cores, |core, of| {
+        (of.builds() || matches!(of, Static | Cdf | Openness | Tick | Schedule)).then_some(())?;
         Some(format!("{}; {}", grouped(core.code(of)?.into()), grouped(core.stack(of)?.into())))
     });
     format!("{building}\n\n{bytes}")

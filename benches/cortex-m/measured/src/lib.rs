@@ -48,19 +48,33 @@ pub fn uniform(i: u32) -> f32 {
 }
 
 macro_rules! functions {
-    ($($name:ident)*) => {
+    ($($function:ident $name:literal)*) => {
         /// A function whose calls are counted, of curves with 8 octaves where its name has no other number.
         ///
         /// `Static` is the inverse of a typical curve in a `static`, which the compiler sees, as firmware has it; the
         /// others call by a reference. `Sqrt...` are for straight ramps.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum Function { $($name),* }
-        pub const FUNCTIONS: &[Function] = &[$(Function::$name),*];
+        pub enum Function { $($function),* }
+        /// Each as the reader knows it, the baselines before what builds a curve.
+        pub const FUNCTIONS: &[(Function, &str)] = &[$((Function::$function, $name)),*];
     };
 }
 functions! {
-    InverseCdf InverseCdf0 InverseCdf4 Static Cdf Openness Tick Schedule Construct Construct0 NearerEnd Table
-    SqrtLibm SqrtMicromath SqrtFpu
+    InverseCdf "`inverse_cdf`"
+    Static "`inverse_cdf` of a `static`"
+    InverseCdf0 "`inverse_cdf`, `OCTAVES = 0`"
+    InverseCdf4 "`inverse_cdf`, `OCTAVES = 4`"
+    Cdf "`cdf`"
+    Openness "`openness`"
+    Tick "a tick"
+    Schedule "a schedule"
+    NearerEnd "Newton, nearer end"
+    Table "linear table of 256"
+    SqrtLibm "`libm::sqrtf`"
+    SqrtMicromath "`micromath` `sqrt`"
+    SqrtFpu "the FPU's square root"
+    Construct0 "building, `OCTAVES = 0`"
+    Construct "building, `OCTAVES = 8`"
 }
 
 impl Function {

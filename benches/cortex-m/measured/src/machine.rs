@@ -1,11 +1,25 @@
-//! Where a program runs: on one of QEMU's boards with an Arm core, or in QEMU's user mode, by semihosting; on s390x,
-//! which has none, by system calls of Linux. It starts in the program's `run` and panics in its `panicked`.
-#![allow(dead_code, unreachable_code, unused_imports, reason = "a program needs a part, and some run for ever")]
+//! Where a program runs: on Linux, by system calls, as QEMU's user mode has it for each processor. It starts in the
+//! program's `run` and panics in its `panicked`.
+#![allow(dead_code, unreachable_code, reason = "a program needs a part, and some run for ever")]
 
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;
 
-pub use on::*;
+use syscalls::{Sysno, syscall};
+
+// Linux aligns the stack.
+#[cfg(target_arch = "arm")]
+core::arch::global_asm!(".globl _start", ".thumb_func", "_start: bl main");
+#[cfg(target_arch = "riscv32")]
+core::arch::global_asm!(".globl _start", "_start: call main");
+#[cfg(target_arch = "s390x")]
+core::arch::global_asm!(".globl _start", "_start: aghi %r15, -160", "brasl %r14, main");
+
+#[unsafe(no_mangle)]
+fn main() -> ! {
+    crate::run();
+    exit(0)
+}
 
 /// What is printed.
 pub struct Out;
@@ -20,7 +34,7 @@ impl Write for Out {
 /// Says why a program ends.
 pub fn panicked(info: &PanicInfo) -> ! {
     let _ = writeln!(Out, "{info}");
-    on::exit(false)
+    exit(1)
 }
 
 #[panic_handler]
@@ -28,65 +42,21 @@ fn panic(info: &PanicInfo) -> ! {
     crate::panicked(info)
 }
 
-#[cfg(not(target_arch = "s390x"))]
-mod on {
-    use semihosting::fs::File;
-    use semihosting::io::{Read, Write, stdout};
-    use semihosting::process::ExitCode;
-
-    // Linux aligns the stack.
-    #[cfg(target_arch = "riscv32")]
-    core::arch::global_asm!(".globl _start", "_start: call main");
-
-    #[cfg_attr(target_arch = "arm", cortex_m_rt::entry)]
-    #[cfg_attr(target_arch = "riscv32", unsafe(no_mangle))]
-    fn main() -> ! {
-        crate::run();
-        exit(true)
-    }
-
-    pub struct In(File);
-
-    impl In {
-        pub fn new() -> Self {
-            Self(File::open(c"/dev/stdin").expect("the host has an input"))
-        }
-
-        /// As many bytes as there are.
-        pub fn read(&mut self, bytes: &mut [u8]) -> usize {
-            self.0.read(bytes).expect("it can be read")
-        }
-    }
-
-    pub fn write(bytes: &[u8]) {
-        let _ = stdout().and_then(|mut out| out.write_all(bytes));
-    }
-
-    pub fn exit(succeeded: bool) -> ! {
-        if succeeded { ExitCode::SUCCESS } else { ExitCode::FAILURE }.exit_process()
-    }
+/// As many bytes of the input, a file, as there are.
+pub fn read(bytes: &mut [u8]) -> usize {
+    // SAFETY: so many bytes are written there.
+    unsafe { syscall!(Sysno::read, 0, bytes.as_mut_ptr(), bytes.len()) }.expect("it can be read")
 }
 
-#[cfg(target_arch = "s390x")]
-mod on {
-    use syscalls::{Sysno, syscall};
+pub fn write(bytes: &[u8]) {
+    // SAFETY: so many bytes are taken from there.
+    let _ = unsafe { syscall!(Sysno::write, 1, bytes.as_ptr(), bytes.len()) };
+}
 
-    core::arch::global_asm!(".globl _start", "_start: aghi %r15, -160", "brasl %r14, main");
-
-    #[unsafe(no_mangle)]
-    fn main() -> ! {
-        crate::run();
-        exit(true)
-    }
-
-    pub fn write(bytes: &[u8]) {
-        // SAFETY: `stdout` takes so many bytes from there.
-        let _ = unsafe { syscall!(Sysno::write, 1, bytes.as_ptr(), bytes.len()) };
-    }
-
-    pub fn exit(succeeded: bool) -> ! {
-        // SAFETY: ends the program.
-        let _ = unsafe { syscall!(Sysno::exit, usize::from(!succeeded)) };
-        loop {}
+fn exit(status: usize) -> ! {
+    // SAFETY: ends the program.
+    let _ = unsafe { syscall!(Sysno::exit, status) };
+    loop {
+        core::hint::spin_loop();
     }
 }

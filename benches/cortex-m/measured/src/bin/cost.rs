@@ -20,7 +20,7 @@ use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, expect};
 #[path = "../machine.rs"]
 mod machine;
 
-use machine::{In, panicked, write};
+use machine::{panicked, read, write};
 
 /// What is measured: a call and nothing else.
 #[inline(never)]
@@ -97,12 +97,12 @@ fn each<I: Copy, O>(inputs: &[I], mut call: impl FnMut(I) -> O) {
 type Curves<const C: usize> = [ShutterCurve<C>; CURVES.len()];
 
 /// The first run's curves; or else they are built, and written for the next.
-fn curves<const C: usize>(input: &mut In) -> Curves<C> {
+fn curves<const C: usize>() -> Curves<C> {
     let mut place = MaybeUninit::<Curves<C>>::zeroed();
     let first = place.as_mut_ptr();
     // SAFETY: of that length, and zeroed.
     let bytes = || unsafe { core::slice::from_raw_parts_mut(first.cast(), size_of::<Curves<C>>()) };
-    if input.read(bytes()) == 0 {
+    if read(bytes()) == 0 {
         for (i, (opening, closing)) in CURVES.iter().map(measured::Curve::ramps).enumerate() {
             let curve = ShutterCurve::with_octaves(opening, closing).expect("a good curve");
             // SAFETY: there are so many.
@@ -171,15 +171,14 @@ fn run_series<const C: usize>(function: Function, i: usize, curves: &Curves<C>, 
 }
 
 fn run() {
-    let mut input = In::new();
-    let (with_0, with_4, with_8) = (curves::<0>(&mut input), curves::<4>(&mut input), curves::<8>(&mut input));
+    let (with_0, with_4, with_8) = (curves::<0>(), curves::<4>(), curves::<8>());
     let mut words = [[0; 4]; MOST];
-    let mut read = |count: usize| {
-        words[..count].iter_mut().all(|word| input.read(word) == word.len()).then(|| words.map(u32::from_le_bytes))
+    let mut numbers = |count: usize| {
+        words[..count].iter_mut().all(|word| read(word) == word.len()).then(|| words.map(u32::from_le_bytes))
     };
-    while let Some([function, curve, count, ..]) = read(3) {
-        let Some(us) = read(count as usize) else { break };
-        let (function, curve) = (FUNCTIONS[function as usize], curve as usize);
+    while let Some([function, curve, count, ..]) = numbers(3) {
+        let Some(us) = numbers(count as usize) else { break };
+        let (function, curve) = (FUNCTIONS[function as usize].0, curve as usize);
         let us = &us.map(f32::from_bits)[..count as usize];
         match function {
             Function::InverseCdf0 | Function::Construct0 => run_series(function, curve, &with_0, us),
