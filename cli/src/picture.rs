@@ -31,8 +31,8 @@ pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let title = format!("Openness and exposure of the shutter {name} over time, with its triggers");
     let facts = format!(
         "exposure {}, efficiency {} %, {}",
-        plan.unit.show(curve.shutter.exposure()),
-        short(100.0 * f64::from(curve.shutter.efficiency()), 4),
+        plan.unit.show(curve.exposure()),
+        short(100.0 * f64::from(curve.efficiency()), 4),
         match plan.triggers.len() {
             n if plan.lamp == Lamp::FullyOpen => {
                 format!("{} in equal steps while it is fully open", count(n as u64, "trigger"))

@@ -82,7 +82,8 @@ impl Facts {
     }
 }
 
-fn of_curve(plan: &Plan, Curve { shutter, .. }: &Curve) -> Vec<Fact> {
+fn of_curve(plan: &Plan, curve: &Curve) -> Vec<Fact> {
+    let shutter = &curve.shutter;
     let unit = plan.unit;
     let times = [shutter.open_start(), shutter.open_end(), shutter.close_start(), shutter.close_end()].map(f64::from);
     let [from, open, close, to] = times.map(|time| short(unit.of(time - plan.origin()), 5));
@@ -92,8 +93,7 @@ fn of_curve(plan: &Plan, Curve { shutter, .. }: &Curve) -> Vec<Fact> {
     };
     let half_open = f64::from(half(shutter, shutter.close_end(), shutter.close_start()))
         - f64::from(half(shutter, shutter.open_start(), shutter.open_end()));
-    let exposure = shutter.exposure();
-    let efficiency = shutter.efficiency();
+    let (exposure, efficiency) = (curve.exposure(), curve.efficiency());
     let percent = short(100.0 * f64::from(efficiency), 4);
     let after = if plan.sync.delay.is_some() { " after the sync" } else { "" };
     vec![
@@ -151,7 +151,7 @@ fn half(curve: &ShutterCurve, dark: f32, open: f32) -> f32 {
 fn nominal(plan: &Plan) -> Vec<Fact> {
     let Some(nominal) = plan.scene.shutter.nominal else { return Vec::new() };
     let told = Fact::new("nominal", "nominal_s", nominal, plan.unit.show(nominal));
-    let delta = plan.curve.as_ref().map(|curve| (f64::from(curve.shutter.exposure()) / nominal).log2());
+    let delta = plan.curve.as_ref().map(|curve| (f64::from(curve.exposure()) / nominal).log2());
     let delta = delta.map(|ev| Fact::new("nominal", "delta_ev", digits(ev as f32), format!("ΔEV {}", stops(ev))));
     [told].into_iter().chain(delta).collect()
 }
@@ -345,7 +345,7 @@ fn doubts(plan: &Plan) -> Vec<Message> {
 fn exposure_differs(plan: &Plan) -> Option<String> {
     let (it, curve) = (plan.scene.shutter.measured.as_ref()?, plan.curve.as_ref()?);
     let measured = it.unit.seconds(it.exposure);
-    let here = f64::from(curve.shutter.exposure()) * it.peak.unwrap_or(1.0);
+    let here = f64::from(curve.exposure());
     let differs = (here - measured).abs() > ROUNDED * measured.max(here) || !measured.is_finite();
     let unit = Unit::fit(here);
     differs.then(|| {

@@ -37,6 +37,20 @@ pub struct Curve {
     pub most: u32,
     /// By so many ticks `f32` moves its times.
     pub moved: f64,
+    /// Its peak, as a share of full light: below 1 where the trace's shutter never opened fully.
+    pub peak: f64,
+}
+
+impl Curve {
+    /// Its exposure in seconds of full light.
+    pub fn exposure(&self) -> f32 {
+        (f64::from(self.shutter.exposure()) * self.peak) as f32
+    }
+
+    /// The exposure's part of the time from opening to closed.
+    pub fn efficiency(&self) -> f32 {
+        (f64::from(self.shutter.efficiency()) * self.peak) as f32
+    }
 }
 
 /// A scene that can be played.
@@ -139,7 +153,8 @@ impl Plan {
         let most = frames.most(n, MOST_TRIGGERS + 1);
         plan.curve = shape.zip(curve).map(|(shape, shutter)| {
             let moved = shape.rounding(&asked.shutter) * f64::from(timer.hz);
-            Curve { shape, shutter, most, moved }
+            let peak = plan.scene.shutter.measured.as_ref().and_then(|it| it.peak).unwrap_or(1.0);
+            Curve { shape, shutter, most, moved, peak }
         });
         plan.held_off()
     }
