@@ -66,10 +66,7 @@ pub fn several(form: Form, name: &str, plans: &[(String, Plan)], curve: bool) ->
     for (name, plan) in plans {
         is_ready(form, plan, curve).map_err(|reason| format!("{name}: {reason}"))?;
     }
-    // An object of JSON has its timer; rows have none.
-    if form != Form::Json {
-        alike(form, plans)?;
-    }
+    alike(form, plans)?;
     let modules = || plans.iter().map(|(name, plan)| Module::new(name, plan)).collect::<Vec<_>>();
     Ok(match form {
         Form::Rust => rust::modules(name, &modules(), curve),
@@ -129,11 +126,19 @@ fn set_ups(plan: &Plan) -> String {
     }
 }
 
-/// What rows must have in common: the timer, the edge and the set-up, which no row tells; and names of their own. An
-/// array's elements also tell the same.
+/// Names of their own, and what rows must have in common, where an object of JSON tells it: the timer, the edge, the
+/// set-up and the lamp's lag. An array's elements also tell the same.
 fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
+        let is_table = matches!(form, Form::Csv | Form::Json);
+        let called = |name: &String| if is_table { name.clone() } else { identifier(name) };
+        if let Some((other, _)) = plans[..i].iter().find(|(other, _)| called(other) == called(name)) {
+            return Err(format!("{other} and {name} would both be called {}", called(name)));
+        }
+        if form == Form::Json {
+            continue;
+        }
         let [a, b] = [one, plan];
         for (key, a, b) in [("timer_hz", a.timer.hz, b.timer.hz), ("timer_bits", a.timer.bits, b.timer.bits)] {
             if a != b {
@@ -149,9 +154,8 @@ fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
         if a.scene.flashes.set_up != b.scene.flashes.set_up {
             return Err(format!("set_up: {first} and {name} differ; one list is for one set-up"));
         }
-        let called = |name: &String| if form == Form::Csv { name.clone() } else { identifier(name) };
-        if let Some((other, _)) = plans[..i].iter().find(|(other, _)| called(other) == called(name)) {
-            return Err(format!("{other} and {name} would both be called {}", called(name)));
+        if a.sync.lag.unwrap_or_default() != b.sync.lag.unwrap_or_default() {
+            return Err(format!("lamp_lag: {first} and {name} differ; one list is for one lamp"));
         }
         if form == Form::Csv {
             continue;

@@ -325,6 +325,7 @@ fn speeds_that_do_not_go_together_are_refused() {
             "delay = 1; sync_falls = true; pulse = 0.1",
             "pulses: one of 1-500 and box has them; an array needs all or none",
         ),
+        ("delay = 1; sync_falls = true; lamp_lag = 0.1", "lamp_lag: 1-500 and box differ; one list is for one lamp"),
     ] {
         assert_eq!([Form::Rust, Form::C].map(|form| refused(form, &with(changes))), [reason; 2]);
     }
@@ -338,8 +339,10 @@ fn speeds_that_do_not_go_together_are_refused() {
     assert!(refused(Form::Csv, &[plain, other[0].clone(), other[1].clone()]).starts_with("sync_falls: 1-500 and box "));
     assert!(refused(Form::Csv, &with("set_up = 'in_path'")).starts_with("set_up: "));
     let plans = [plans[0].clone(), plans[0].clone()];
-    assert_eq!(refused(Form::Csv, &plans), "1-500 and 1-500 would both be called 1-500");
-    let plans = with("timer_hz = 999");
+    for form in [Form::Csv, Form::Json] {
+        assert_eq!(refused(form, &plans), "1-500 and 1-500 would both be called 1-500");
+    }
+    let plans = with("timer_hz = 999; lamp_lag = 0.1");
     assert!(several(Form::Json, "camera", &plans, false).is_ok());
     let mut plans = speeds(["1-500", "box", "slow speed"], "");
     plans[1].0 = "Slow-Speed".into();

@@ -77,8 +77,8 @@ fn a_lamps_lag_is_taken_off() {
     let [late, longer] = ["0.7", "3"].map(|lag| hardware(&format!("{delay}lamp_lag = {lag}")));
     has(&report(&late), &["lamp lag     0.7 ms: the lamp is triggered so much earlier\n"], &[]);
     for form in [Form::Rust, Form::C] {
-        // What is said of all ticks of an array holds for the one that is late as well.
-        let both = [("plain".into(), hardware(delay)), ("late".into(), late.clone())];
+        // What is said of all ticks of an array holds for the one that opens early as well.
+        let both = [("plain".into(), hardware(delay)), ("early".into(), hardware("sync_falls = true; delay = -0.2"))];
         let both = several(form, "both", &both, false).unwrap();
         assert_eq!(both.matches("counted from the end of the delay").count(), 2, "{both}");
         let late = text(form, &late);
