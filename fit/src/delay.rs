@@ -48,6 +48,11 @@ impl Delay {
         self.shots.iter().sum::<f64>() / self.shots.len() as f64
     }
 
+    /// From the edge to the half-open shutter, which is known as well as any trigger.
+    pub fn to_half(&self) -> f64 {
+        self.mean() + self.half
+    }
+
     /// The standard deviation between shots, where there are several.
     pub fn spread(&self) -> Option<f64> {
         let n = self.shots.len() as f64;

@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
+use shutter_fit::delay::{self, Delay};
 use shutter_fit::trace::{self, Column, Light, Tell, Warning};
-use shutter_fit::unit::{Unit, count, short, stops};
-use shutter_fit::{Kind, Options, Record, Tolerance, delay};
+use shutter_fit::unit::{Unit, count, rounded, short, stops};
+use shutter_fit::{Kind, Options, Record, Tolerance};
 
 use super::fit_many::{self, Speed};
-use super::input::{file_name, shown, stem};
+use super::input::{file_name, names, shown, stem};
 use super::mark;
 use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
@@ -170,6 +171,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         }
         return sensors(args, &traces, clock, sync, out, err);
     }
+    let names = names(&traces, file_name);
     let scenes = args.out.as_ref().map_or(Vec::new(), |file| scenes(file, &traces));
     let printed = (args.report == Report::Json).then_some(Path::new("-"));
     let to = scenes.iter().chain(&args.picture).map(PathBuf::as_path);
@@ -197,6 +199,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         let triggers = args.triggers.or(triggers(olds.get(i)));
         let mut speed = measure(read, records, triggers)?;
         speed.fit.nominal = args.nominal.get(i).copied();
+        if !is_one {
+            speed.name = names[i].clone();
+        }
         speeds.push(speed);
     }
     let fits = speeds.iter_mut().map(|speed| &mut speed.fit);
@@ -206,7 +211,8 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let mut said = Said::default();
     let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut said);
     let mut told = warned(&speeds);
-    told.extend(speeds.iter().filter_map(far_from_nominal));
+    told.extend(speeds.iter().filter_map(|speed| far_from_nominal(speed, &speeds)));
+    told.extend(edges_apart(args, &speeds));
     told += &said.told;
     let report = match (args.report, speeds.as_slice()) {
         (Report::Json, speeds) => json(speeds),
@@ -240,7 +246,7 @@ fn sensors<'a>(
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> Result<(), String> {
-    let (time, signals) = args.columns.split_at(clock);
+    let (names, (time, signals)) = (names(traces, file_name), args.columns.split_at(clock));
     let mut all = Vec::new();
     for (i, trace) in traces.iter().enumerate() {
         let mut speed = Vec::<Speed>::new();
@@ -262,7 +268,7 @@ fn sensors<'a>(
             }
             fit.nominal = args.nominal.get(i).or(args.nominal.first()).copied();
             let name = fit.reading.as_ref().and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
-            let name = if traces.len() > 1 { format!("{} {name}", file_name(trace)) } else { name };
+            let name = if traces.len() > 1 { format!("{} {name}", names[i]) } else { name };
             speed.push(Speed { name, fit, warnings });
         }
         all.push(speed);
@@ -291,17 +297,42 @@ fn warned(speeds: &[Speed]) -> String {
     told.into_iter().map(line).collect()
 }
 
-/// What is called by another speed is another one, or its trace is.
-fn far_from_nominal(Speed { name, fit, .. }: &Speed) -> Option<String> {
-    let nominal = fit.nominal?;
-    let ev = (fit.exposure.value / nominal).log2();
-    (ev.abs() >= 1.0).then(|| {
+/// What is called by another speed is another one, or its trace is: it is far off, or a longer one is called shorter.
+fn far_from_nominal(Speed { name, fit, .. }: &Speed, all: &[Speed]) -> Option<String> {
+    let (nominal, exposure) = (fit.nominal?, fit.exposure.value);
+    let ev = (exposure / nominal).log2();
+    let is_crossed = |Speed { fit: other, .. }: &Speed| {
+        other.nominal.is_some_and(|of| (of - nominal) * (other.exposure.value - exposure) < 0.0)
+    };
+    (ev.abs() >= 1.0 || all.iter().any(is_crossed)).then(|| {
         let (measured, unit) = (fit.unit().show(fit.exposure.value), Unit::fit(nominal));
         format!(
             "warning: {name}: {measured} is {} EV off its --nominal of {}: \
              are the speeds in the order of the traces?\n",
             stops(ev),
             unit.show(nominal)
+        )
+    })
+}
+
+/// One time of the edge is not that of each trace, if its shutter opens later in one than in another by more than is
+/// known, and more than a hundredth of an exposure.
+fn edges_apart(args: &Args, speeds: &[Speed]) -> Option<String> {
+    let [Asked::Time(_)] = args.sync[..] else { return None };
+    let opens = speeds.iter().filter_map(|it| Some((it, it.fit.delay.as_ref()?)));
+    let by_delay = |a: &(_, &Delay), b: &(_, &Delay)| a.1.to_half().total_cmp(&b.1.to_half());
+    let (early, first) = opens.clone().min_by(by_delay)?;
+    let (late, last) = opens.max_by(by_delay)?;
+    let apart = last.to_half() - first.to_half();
+    let known = 3.0 * first.trigger_error().hypot(last.trigger_error());
+    let matters = 0.01 * early.fit.exposure.value.min(late.fit.exposure.value);
+    (apart > known.max(matters)).then(|| {
+        format!(
+            "warning: {} is half open {} later after its edge than {}: is the edge at that time in each trace? if not, \
+             give a --sync for each\n",
+            late.name,
+            Unit::fit(apart).show(rounded(apart, 3)),
+            early.name
         )
     })
 }

@@ -39,6 +39,17 @@ pub fn file_name(path: &Path) -> String {
     }
 }
 
+/// What each of several inputs is called: what `name` makes of its path, with the folder where another's is the same.
+pub fn names(paths: &[&Path], name: fn(&Path) -> String) -> Vec<String> {
+    let own: Vec<String> = paths.iter().map(|path| name(path)).collect();
+    let is_shared = |name: &String| own.iter().filter(|other| *other == name).count() > 1;
+    let called = |(path, own): (&&Path, &String)| match is_shared(own) {
+        true => path.with_file_name(own).display().to_string(),
+        false => own.clone(),
+    };
+    paths.iter().zip(&own).map(called).collect()
+}
+
 /// Its name without what tells the form.
 pub fn stem(path: &Path) -> String {
     match path.file_stem() {

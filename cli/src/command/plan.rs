@@ -65,7 +65,10 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let mut outputs = Outputs::new(&inputs, &files, args.force)?;
     let plans = match scenes.as_slice() {
         [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
-        paths => paths.iter().map(|path| read(args, path)).collect::<Result<Vec<_>, String>>()?,
+        _ => {
+            let plans: Vec<Plan> = inputs.iter().map(|path| read(args, path)).collect::<Result<_, _>>()?;
+            input::names(&inputs, stem).into_iter().zip(plans).collect()
+        }
     };
     // A report has them itself.
     let mut told = match (scenes.is_empty(), form) {
@@ -117,12 +120,12 @@ fn comment(form: Form) -> Option<Comment> {
     }
 }
 
-fn read(args: &Args, path: &Path) -> Result<(String, Plan), String> {
+fn read(args: &Args, path: &Path) -> Result<Plan, String> {
     let file = shown(path);
     let text =
         input::read(path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
     let text = text.map_err(|reason| format!("{file}: {reason}"))?;
-    Ok((stem(path), checked(args, &file, &text)?))
+    checked(args, &file, &text)
 }
 
 fn checked(args: &Args, file: &str, text: &str) -> Result<Plan, String> {
