@@ -50,7 +50,7 @@ impl Core {
         if program == "cost" {
             cargo.args(["--features", "cost"]);
         }
-        // Each function begins at a word, since the fetch counts: else its cycles would change with what lies before it.
+        // Each function begins at a word, as the fetch counts: else its cycles would change with what lies before it.
         // No library of Linux's is linked, so none of its linkers is needed.
         let flags = "-C linker=rust-lld -C linker-flavor=ld.lld -C relocation-model=static \
             -C llvm-args=-align-all-functions=2";
