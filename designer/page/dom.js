@@ -1,16 +1,6 @@
 // Elements of the page.
 
-const NS = 'http://www.w3.org/2000/svg';
-
 export const $ = (id) => document.getElementById(id);
-
-/** An element of a picture. */
-export function svg(tag, attributes = {}, parent) {
-  const made = document.createElementNS(NS, tag);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  parent?.append(made);
-  return made;
-}
 
 /** A place as a picture takes it, however far outside it is. */
 export const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);

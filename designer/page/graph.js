@@ -1,6 +1,7 @@
 // The curve with the equal shares and the flashes, and a trace; below it the share of the exposure.
 
-import { $, atMost, svg, watch, write } from './dom.js';
+import { html, nothing, render, svg } from 'lit-html';
+import { $, atMost, watch, write } from './dom.js';
 import { Handles } from './handles.js';
 import { model, tell } from './model.js';
 import { isSameShape, originSeconds, perSecond, short, syncOf, tidy } from './scene.js';
@@ -83,25 +84,7 @@ export class Graph {
   constructor(box) {
     this.box = box;
     this.isNew = { all: watch(), cursor: watch(), trace: watch() };
-    const label = 'Openness over time, with handles; below it the share of the exposure collected';
-    const root = (this.root = svg('svg', { role: 'group', 'aria-label': label }));
-    const defs = svg('defs', {}, root);
-    this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
-    this.framed = svg('rect', {}, svg('clipPath', { id: 'plot' }, defs));
-    // A trace that goes far below the dark, or above the light, goes through no other chart.
-    this.upper = svg('rect', {}, svg('clipPath', { id: 'upper' }, defs));
-    this.grid = svg('g', { class: 'grid', 'aria-hidden': true }, root);
-    const inside = svg('g', { 'clip-path': 'url(#plot)', 'aria-hidden': true }, root);
-    const layer = (name, clip) => svg('path', { class: name, ...(clip && { 'clip-path': `url(#${clip})` }) }, inside);
-    this.paths = {
-      even: layer('share even', 'below'), odd: layer('share odd', 'below'), lamp: layer('lamp'), stems: layer('stems'),
-      edge: layer('edge'), curve: layer('curve'), trace: layer('trace', 'upper'), errors: layer('errors'),
-      dots: layer('dots'), residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'),
-      cdfDots: layer('dots'),
-      cross: layer('cross'), arms: layer('arms'),
-    };
     this.handles = new Handles(this);
-    box.append(root);
     this.room = box.clientWidth;
     new ResizeObserver(([{ contentRect }]) => {
       this.room = contentRect.width;
@@ -109,13 +92,13 @@ export class Graph {
     }).observe(box);
     // A finger reads as well: what it has touched last stays.
     const reads = (event) => this.dragged || this.pointAt(this.t(this.pointer(event)[0]));
-    root.addEventListener('pointerdown', reads);
-    root.addEventListener('pointermove', reads);
-    root.addEventListener('pointerleave', ({ pointerType: by }) => this.dragged || by !== 'mouse' || this.pointAt());
+    box.addEventListener('pointerdown', reads);
+    box.addEventListener('pointermove', reads);
+    box.addEventListener('pointerleave', ({ pointerType: by }) => this.dragged || by !== 'mouse' || this.pointAt());
   }
 
   pointer(event) {
-    const { left, top } = this.root.getBoundingClientRect();
+    const { left, top } = this.box.getBoundingClientRect();
     return [event.clientX - left, event.clientY - top];
   }
 
@@ -140,14 +123,16 @@ export class Graph {
     if (this.isNew.trace(trace)) {
       this.fitted = trace?.fit && { ...viewOf(trace.scene).Ok, origin: originSeconds(trace.scene) };
     }
+    const isMoved = this.isNew.cursor(cursor);
     if (this.isNew.all(scene, last, trace, this.dragged)) this.draw();
-    if (this.isNew.cursor(last, cursor, scene.unit, this.size)) this.point(cursor);
+    else if (isMoved) this.point();
   }
 
   // The time that is pointed at, in words.
-  point(cursor) {
+  point() {
+    const { cursor } = model;
     const line = cursor === null ? '' : `M${atMost(this.x(cursor * this.perUnit))} ${TOP}V${this.cdfBottom}`;
-    this.paths.cross.setAttribute('d', line);
+    this.box.querySelector('.cross').setAttribute('d', line);
     write($('readout'), cursor === null ? '' : this.words(cursor));
   }
 
@@ -169,6 +154,7 @@ export class Graph {
     ].join(' · ');
   }
 
+  // Where all is.
   fit() {
     const width = Math.max(220, Math.floor(this.room));
     const strip = this.samples ? RESIDUAL : 0;
@@ -200,85 +186,56 @@ export class Graph {
       perPixel, perPixelY, x: (t) => LEFT + (t - start) / perPixel, t: (x) => start + (x - LEFT) * perPixel,
       y: (o) => bottom - (o - low) / perPixelY, o: (y) => low + (bottom - y) * perPixelY,
     };
-    Object.assign(this, this.map, { low, high });
-    const size = String([width, height, this.range, low, high, this.scene.unit, this.samples && this.zoom()]);
-    if (size === this.size) return;
-    this.size = size;
-    this.root.setAttribute('viewBox', `0 0 ${width} ${height}`);
-    this.root.setAttribute('width', width);
-    this.root.setAttribute('height', height);
-    this.frame(height);
+    Object.assign(this, this.map, { low, high, size: { width, height } });
+    if (!this.samples) return;
+    // The residual is drawn so many times as high as the trace. Edges within one sample would hide all else.
+    const sizes = this.samples.map(([, , r]) => Math.abs(r)).sort((a, b) => a - b);
+    const most = 1.4 * Math.max(sizes[Math.floor(0.98 * (sizes.length - 1))], 1e-5);
+    this.zoom = tidy((0.5 * (RESIDUAL - 20) * (high - low)) / (most * this.height), 1);
   }
 
   // The axes.
-  frame(height) {
-    this.grid.replaceChildren();
-    const line = (x1, y1, x2, y2, name = '') => svg('path', { d: `M${x1} ${y1}L${x2} ${y2}`, class: name }, this.grid);
-    const text = (x, y, words, anchor) => svg('text', { x, y, 'text-anchor': anchor }, this.grid).append(words);
-    const right = LEFT + this.width;
-    for (const o of [0, 0.25, 0.5, 0.75, 1]) {
-      line(LEFT, this.y(o), right, this.y(o), o === 0 || o === 1 ? 'bold' : '');
-      if (o !== 0.25 && o !== 0.75) text(LEFT - 8, this.y(o) + 4, o, 'end');
-    }
-    for (const u of [0, 0.5, 1]) {
-      line(LEFT, this.u(u), right, this.u(u), u === 0.5 ? '' : 'bold');
-      text(LEFT - 8, this.u(u) + 4, u, 'end');
-    }
-    for (const t of rounds(this.range[0], this.range[1], Math.min(10, this.width / 62))) {
-      line(this.x(t), TOP, this.x(t), this.bottom);
-      line(this.x(t), this.u(1), this.x(t), this.u(0));
-      text(this.x(t), this.cdfBottom + 17, short(t, 6), 'middle');
-    }
-    text(LEFT, this.u(1) - 8, 'share of the exposure collected', 'start');
-    const left = `trace minus curve, ${this.samples && short(this.zoom(), 2)} times as high`;
-    if (this.samples) text(LEFT, this.bottom + 14, left, 'start');
-    text(right, height - 8, `time (${this.scene.unit})`, 'end');
-    const frame = { x: LEFT - 5, y: 0, width: this.width + 10, height };
-    for (const [key, value] of Object.entries(frame)) {
-      this.framed.setAttribute(key, value);
-      this.upper.setAttribute(key, key === 'height' ? this.bottom + 4 : value);
-    }
-  }
-
-  // The residual is drawn so many times as high as the trace. Edges within one sample would hide all else.
-  zoom() {
-    const sizes = this.samples.map(([, , r]) => Math.abs(r)).sort((a, b) => a - b);
-    const most = 1.4 * Math.max(sizes[Math.floor(0.98 * (sizes.length - 1))], 1e-5);
-    return tidy((0.5 * (RESIDUAL - 20) * (this.high - this.low)) / (most * this.height), 1);
+  get axes() {
+    const line = (x, y, to, name = '') => svg`<path class=${name} d="M${x} ${y}${to}" />`;
+    const text = (x, y, words, anchor) => svg`<text x=${x} y=${y} text-anchor=${anchor}>${words}</text>`;
+    const { x, y, u, range: [start, end], size: { height } } = this, right = LEFT + this.width;
+    const across = (at, value, isBold, isTold) =>
+      [line(LEFT, at, `H${right}`, isBold ? 'bold' : ''), isTold ? text(LEFT - 8, at + 4, value, 'end') : nothing];
+    const up = (t) => [
+      line(x(t), TOP, `V${this.bottom}`), line(x(t), u(1), `V${u(0)}`),
+      text(x(t), this.cdfBottom + 17, short(t, 6), 'middle'),
+    ];
+    const left = `trace minus curve, ${short(this.zoom, 2)} times as high`;
+    return [
+      [0, 0.25, 0.5, 0.75, 1].map((o) => across(y(o), o, o === 0 || o === 1, o !== 0.25 && o !== 0.75)),
+      [0, 0.5, 1].map((share) => across(u(share), share, share !== 0.5, true)),
+      rounds(start, end, Math.min(10, this.width / 62)).map(up),
+      text(LEFT, u(1) - 8, 'share of the exposure collected', 'start'),
+      this.samples ? text(LEFT, this.bottom + 14, left, 'start') : nothing,
+      text(right, height - 8, `time (${this.scene.unit})`, 'end'),
+    ];
   }
 
   draw() {
     if (!this.view || !this.room) return;
-    const { view, paths } = this;
-    const { trace } = model.now;
-    const fit = trace?.fit;
-    const isFitted = fit && isSameShape(trace.scene, this.scene);
-    const origin = originSeconds(this.scene);
-    this.isSynced = syncOf(this.scene).delay !== null;
+    const { view, scene, scene: { own, flashes } } = this, { trace } = model.now, fit = trace?.fit;
+    const isFitted = fit && isSameShape(trace.scene, scene), origin = originSeconds(scene);
+    this.isSynced = syncOf(scene).delay !== null;
     this.samples = fit && this.fitted ? left(fit, origin, view, !isFitted && this.fitted) : null;
     this.fit();
     const per = this.perUnit;
     const f = atMost;
     const X = (seconds) => this.x(seconds * per);
     const [zero, bottom] = [f(this.y(0)), f(this.u(0))];
-    const set = (path, d) => path.getAttribute('d') !== d && path.setAttribute('d', d);
     const ramps = outline(view, ([t, y]) => `${f(X(t))} ${f(this.y(y))}`);
-    // Where a trace tells the triggers, no curve does.
-    paths.curve.classList.toggle('beside', Boolean(this.scene.own));
     const [start, end] = [f(X(view.times[0])), f(X(view.times[3]))];
-    set(paths.curve, `M${LEFT} ${zero}H${start}${ramps}L${end} ${zero}H${LEFT + this.width}`);
-    this.clip.setAttribute('d', `M${start} ${zero}${ramps}L${end} ${zero}Z`);
-
     const top = f(this.y(this.high));
     const isSeen = this.isSynced && this.range[0] <= 0 && this.range[1] >= 0;
-    set(paths.edge, isSeen ? `M${f(this.x(0))} ${TOP}V${this.cdfBottom}` : '');
     const shares = ['', ''];
     if (view.edges.length <= MOST_SHARES) {
       const edges = view.edges.map((t) => f(X(t)));
       for (let i = 1; i < edges.length; i++) shares[i % 2] += `M${edges[i - 1]} ${top}V${zero}H${edges[i]}V${top}Z`;
     } else shares[0] = `M${start} ${top}V${zero}H${end}V${top}Z`;
-    set(paths.even, shares[0]);
-    set(paths.odd, shares[1]);
 
     const hasDots = view.marks.length <= MOST_DOTS;
     const few = view.marks.length > 2000 ? [] : view.marks;
@@ -293,36 +250,50 @@ export class Graph {
         dots[1] += `M${x} ${v}h0`;
       }
     }
-    set(paths.stems, stems[0]);
-    set(paths.dots, dots[0]);
-    set(paths.cdfStems, stems[1]);
-    set(paths.cdfDots, dots[1]);
     const come = collected(this).map(([t, u]) => `${f(X(t))} ${f(this.u(u))}`);
     const all = `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`;
-    set(paths.cdf, this.scene.own ? `M${come.slice(1, -1).join('L')}` : all);
 
     const tick = (ticks) => f(X(view.times[0] + (view.plan.Ok.early + ticks) / view.plan.Ok.hz));
     const pulses = view.plan.Ok?.pulses ?? [];
     const high = f(this.y(1));
-    set(paths.lamp, pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''));
-    if (this.scene.flashes.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
-    else paths.lamp.removeAttribute('clip-path');
     const { samples } = this;
     const keys = { lamp: pulses.length, trace: samples, share: shares[1], edge: isSeen };
     for (const [name, isThere] of Object.entries(keys)) document.querySelector(`.${name}-key`).hidden = !isThere;
     const points = (y) => samples ? `M${samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L')}` : '';
-    set(paths.trace, points(([, o]) => this.y(o)));
-    const scale = samples ? (this.zoom() * this.height) / (this.high - this.low) : 0;
+    const scale = samples ? (this.zoom * this.height) / (this.high - this.low) : 0;
     const half = 0.5 * (RESIDUAL - 20), middle = this.bottom + 20 + half;
     const missed = points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half));
-    set(paths.residual, missed && `${missed}M${LEFT} ${middle}H${LEFT + this.width}`);
     // Of another number of flashes the fit has not told the errors.
-    const told = isFitted && fit.triggers.length === this.scene.flashes.triggers ? fit.triggers : [];
-    set(paths.errors, told.map(([at, error]) => {
+    const told = isFitted && fit.triggers.length === flashes.triggers ? fit.triggers : [];
+    const error = ([at, error]) => {
       const t = at - origin, y = f(this.y(openness(view, t)));
       return `M${f(X(t - error))} ${y}H${f(X(t + error))}m0 -5v10M${f(X(t - error))} ${Number(y) - 5}v10`;
-    }).join(''));
-    this.handles.draw();
+    };
+    // From the lowest on: each with the part of the picture that it keeps to.
+    const layers = [
+      ['share even', shares[0], 'below'], ['share odd', shares[1], 'below'],
+      ['lamp', pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''),
+        flashes.duty !== null && 'below'],
+      ['stems', stems[0]], ['edge', isSeen ? `M${f(this.x(0))} ${TOP}V${this.cdfBottom}` : ''],
+      // Where a trace tells the triggers, no curve does.
+      [own ? 'curve beside' : 'curve', `M${LEFT} ${zero}H${start}${ramps}L${end} ${zero}H${LEFT + this.width}`],
+      // A trace that goes far below the dark, or above the light, goes through no other chart.
+      ['trace', points(([, o]) => this.y(o)), 'upper'], ['errors', told.map(error).join('')], ['dots', dots[0]],
+      ['residual', missed && `${missed}M${LEFT} ${middle}H${LEFT + this.width}`],
+      ['stems cdf', stems[1]], ['curve', own ? `M${come.slice(1, -1).join('L')}` : all], ['dots', dots[1]],
+    ];
+    const { width, height } = this.size;
+    const clip = (id, height) =>
+      svg`<clipPath id=${id}><rect x=${LEFT - 5} y="0" width=${this.width + 10} height=${height} /></clipPath>`;
+    const layer = ([name, d, clip]) =>
+      svg`<path class=${name} clip-path=${clip ? `url(#${clip})` : nothing} d=${d} />`;
+    render(html`<svg role="group" viewBox="0 0 ${width} ${height}" width=${width} height=${height}
+      aria-label="Openness over time, with handles; below it the share of the exposure collected">
+      <defs><clipPath id="below"><path d="M${start} ${zero}${ramps}L${end} ${zero}Z" /></clipPath>
+        ${clip('plot', height)}${clip('upper', this.bottom + 4)}</defs>
+      <g class="grid" aria-hidden="true">${this.axes}</g>
+      <g clip-path="url(#plot)" aria-hidden="true">${layers.map(layer)}<path class="cross" /></g>
+      ${this.handles.drawn()}</svg>`, this.box);
+    this.point();
   }
 }
-

@@ -1,12 +1,17 @@
 // The handles of the graph: moved by mouse, finger and keys, each in its box.
 
-import { atMost, svg } from './dom.js';
+import { nothing, svg } from 'lit-html';
+import { $, atMost } from './dom.js';
 import { change, model } from './model.js';
 import { INNER, TIMES, innerOf, short, tidy, timesOf, withInner, withTimes } from './scene.js';
 import { allowed } from './view.js';
 
 /** The handles: the four times, then the four inner control points. */
 const HANDLES = [...TIMES, 't1', 't2', 't5', 't6'];
+/** As they are in the picture, which is Tab's order. */
+const ORDER = [0, 4, 5, 1, 2, 6, 7, 3];
+/** The page must not scroll with the finger. */
+const STILL = { handleEvent: (event) => event.preventDefault(), passive: false };
 /** The first control point may pass the second by so much of the ramp. */
 const CROSS = 15 / 16;
 
@@ -53,25 +58,6 @@ const kept = (scene, next) => (allowed(next) || !allowed(scene) ? next : scene);
 export class Handles {
   constructor(graph) {
     this.graph = graph;
-    this.groups = [];
-    // In the order of the picture, which is Tab's.
-    for (const i of [0, 4, 5, 1, 2, 6, 7, 3]) this.groups[i] = this.make(HANDLES[i], i);
-  }
-
-  make(name, i) {
-    const isTime = i < 4;
-    const is = { class: `handle ${isTime ? 'time' : 'control'}`, tabindex: 0, role: 'slider', 'aria-label': NAMES[i] };
-    const group = svg('g', { ...is, id: `handle-${name}` }, this.graph.root);
-    svg('circle', { r: 22, class: 'reach' }, group);
-    svg('circle', { r: 11, class: 'halo' }, group);
-    if (isTime) svg('rect', { x: -6, y: -6, width: 12, height: 12, rx: 2.5 }, group);
-    else svg('circle', { r: 6 }, group);
-    // The page must not scroll with the finger.
-    group.addEventListener('touchstart', (event) => event.preventDefault(), { passive: false });
-    group.addEventListener('pointerdown', (event) => this.grab(event));
-    group.addEventListener('keydown', (event) => this.key(event, i));
-    group.addEventListener('focus', () => this.graph.pointAt(placeOf(this.graph.scene, i)[0]));
-    return group;
   }
 
   key(event, i) {
@@ -97,7 +83,7 @@ export class Handles {
     change({ scene: next }, { key: event.repeat ? `held ${i}` : undefined, told });
   }
 
-  grab(event) {
+  grab = (event) => {
     if (event.button || this.graph.dragged) return;
     event.preventDefault();
     const { graph } = this;
@@ -108,7 +94,7 @@ export class Handles {
       return [graph.x(t), graph.y(y)];
     };
     const distance = (i, [x, y]) => Math.hypot(pixels(i)[0] - x, pixels(i)[1] - y);
-    const indices = HANDLES.map((_, i) => i);
+    const indices = HANDLES.map((_, i) => i).filter((i) => pixels(i).every(Number.isFinite));
     const nearest = indices.reduce((a, b) => (distance(b, start) < distance(a, start) ? b : a));
     // Of those in one place it becomes the one that can go where the pointer goes.
     const together = indices.filter((i) => distance(i, pixels(nearest)) < SAME);
@@ -120,11 +106,10 @@ export class Handles {
     };
     let i = together.length > 1 ? undefined : nearest;
     let last = first;
-    const holder = this.groups[nearest];
+    const group = (i) => $(`handle-${HANDLES[i]}`), holder = group(nearest);
     const take = (chosen) => {
       i = chosen;
-      this.groups[i].classList.add('dragged');
-      this.groups[i].focus({ preventScroll: true, focusVisible: false });
+      group(i).focus({ preventScroll: true, focusVisible: false });
     };
     holder.setPointerCapture(event.pointerId);
     graph.dragged = first;
@@ -152,7 +137,6 @@ export class Handles {
       graph.dragged = null;
       if (model.now.scene === last && event) change({ scene: event.type === 'pointerup' ? last : first });
       if (i === undefined) take(nearest);
-      for (const group of this.groups) group.classList.remove('dragged');
       graph.show(model);
     };
     const escape = (event) => event.key === 'Escape' && end(event);
@@ -175,23 +159,23 @@ export class Handles {
     return [t, i < 4 ? placeOf(scene, i)[1] : near(map.o(y), map.perPixelY, [0, 1], 0.01)];
   }
 
-  /** Puts all handles where they belong. */
-  draw() {
+  /** All of them, and what joins each to its ramp's end. */
+  drawn() {
     const { graph, graph: { scene } } = this;
-    const places = HANDLES.map((_, i) => placeOf(scene, i));
-    const isDrawn = places.map((place) => place.every(Number.isFinite));
-    const at = places.map(([t, o]) => [atMost(graph.x(t)), atMost(graph.y(o))]);
-    places.forEach(([t, o], i) => {
-      const group = this.groups[i];
-      group.style.display = isDrawn[i] ? '' : 'none';
-      if (!isDrawn[i]) return;
-      const [least, most] = limits(scene, i);
-      const set = (name, value) => group.getAttribute(name) !== value && group.setAttribute(name, value);
-      set('transform', `translate(${at[i]})`);
-      set('aria-valuetext', `${short(t)} ${scene.unit}${i < 4 ? '' : `, openness ${short(o)}`}`);
-      for (const [name, x] of [['now', t], ['min', least], ['max', most]]) set(`aria-value${name}`, short(x));
-    });
-    const arms = [[0, 4], [1, 5], [2, 6], [3, 7]].filter((pair) => pair.every((i) => isDrawn[i]));
-    graph.paths.arms.setAttribute('d', arms.map(([a, b]) => `M${at[a]}L${at[b]}`).join(''));
+    const places = HANDLES.map((_, i) => placeOf(scene, i)), isThere = places.map((it) => it.every(Number.isFinite));
+    const at = places.map(([t, o]) => `${atMost(graph.x(t))} ${atMost(graph.y(o))}`);
+    const handle = (i) => {
+      const [t, o] = places[i], [least, most] = limits(scene, i), isTime = i < 4;
+      return svg`<g id="handle-${HANDLES[i]}" class="handle ${isTime ? 'time' : 'control'}" tabindex="0" role="slider"
+        aria-label=${NAMES[i]} aria-valuetext="${short(t)} ${scene.unit}${isTime ? '' : `, openness ${short(o)}`}"
+        aria-valuenow=${short(t)} aria-valuemin=${short(least)} aria-valuemax=${short(most)}
+        ?hidden=${!isThere[i]} transform=${isThere[i] ? `translate(${at[i]})` : nothing}
+        @touchstart=${STILL} @pointerdown=${this.grab} @keydown=${(event) => this.key(event, i)}
+        @focus=${() => graph.pointAt(placeOf(graph.scene, i)[0])}>
+        <circle class="reach" r="22" /><circle class="halo" r="11" />
+        ${isTime ? svg`<rect x="-6" y="-6" width="12" height="12" rx="2.5" />` : svg`<circle r="6" />`}</g>`;
+    };
+    const arms = [[0, 4], [1, 5], [2, 6], [3, 7]].filter((pair) => pair.every((i) => isThere[i]));
+    return svg`<path class="arms" d=${arms.map(([a, b]) => `M${at[a]}L${at[b]}`).join('')} />${ORDER.map(handle)}`;
   }
 }

@@ -28,13 +28,13 @@ async function play({ seed, count }) {
     $(id).dispatchEvent(new Event('input', { bubbles: true }));
     if (isLeft) $(id).blur();
   };
-  const handles = () => [...document.querySelectorAll('g.handle')].filter((it) => it.style.display !== 'none');
+  const handles = () => [...document.querySelectorAll('g.handle:not([hidden])')];
   const drag = () => {
     const handle = pick(handles());
     // As a browser does, what follows goes to the handle that captures the pointer: the nearest, not always this one.
     let captor = handle;
     for (const it of handles()) it.setPointerCapture = () => { captor = it; };
-    const { x, y, width, height } = handle.lastChild.getBoundingClientRect();
+    const { x, y, width, height } = handle.lastElementChild.getBoundingClientRect();
     const send = (type, dx, dy) => {
       const at = { clientX: x + width / 2 + dx, clientY: y + height / 2 + dy };
       captor.dispatchEvent(new PointerEvent(type, { bubbles: true, pointerId: 1, button: 0, ...at }));
