@@ -10,14 +10,6 @@ export function write(element, text) {
   if (node.data !== text) node.data = text;
 }
 
-/** To which of so many things in a row an arrow key leads from `at`; nothing for another key. */
-export function arrowed(event, at, count) {
-  const to = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: count - 1 }[event.key];
-  if (to === undefined) return undefined;
-  event.preventDefault();
-  return (to + count) % count;
-}
-
 /** Tells whether any of the things it is called with is another one than the last time. */
 export function watch() {
   let last;

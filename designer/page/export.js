@@ -1,15 +1,12 @@
 // What is taken away: the plan in the forms that a firmware or a script takes, a link, a picture.
 
 import { html, nothing, render } from 'lit-html';
-import { $, arrowed, watch } from './dom.js';
+import { $, watch } from './dom.js';
 import { give } from './form.js';
 import { change, model } from './model.js';
 import { hash, syncOf } from './scene.js';
 import { emitForm } from './studio.js';
 
-const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON']];
-
-let chosen = 'rust';
 // { text, file } or { reason, remedies } of the form and the scene, as a promise.
 let made = null;
 // Is the panel in sight? Before it is, nothing is written.
@@ -21,34 +18,17 @@ export function startExport() {
     const { text, file } = await made;
     if (text) act(text, file);
   };
-  $('copy').onclick = () => whole((text) => copy(text, `Copied: ${FORMS.find(([name]) => name === chosen)[1]}`));
+  $('copy').onclick = () => whole((text) => copy(text, `Copied: ${chosen().parentElement.textContent}`));
   $('save').onclick = () => whole((text, file) => save(new Blob([text], { type: 'text/plain' }), file));
   $('link').onclick = () => copyLink(model.now);
-  $('forms').onkeydown = (event) => {
-    const to = arrowed(event, FORMS.findIndex(([name]) => name === chosen), FORMS.length);
-    if (to === undefined) return;
-    choose(FORMS[to][0]);
-    $(`form-${chosen}`).focus();
-  };
-  tabs();
+  $('forms').onchange = () => drawExport(model);
 }
+
+const chosen = () => $('forms').querySelector(':checked');
 
 /** The panel is in sight, or asked for: from now on it is written. */
 export function showExport() {
   isSeen = true;
-  drawExport(model);
-}
-
-function tabs() {
-  const tab = ([name, title]) => html`<button type="button" id="form-${name}" role="tab" aria-controls="code"
-    aria-selected=${name === chosen} tabindex=${name === chosen ? 0 : -1}
-    @click=${() => choose(name)}>${title}</button>`;
-  render(FORMS.map(tab), $('forms'));
-}
-
-function choose(name) {
-  chosen = name;
-  tabs();
   drawExport(model);
 }
 
@@ -57,10 +37,11 @@ const isNewForm = watch();
 export function drawExport({ now: { scene }, view, wrong }) {
   $('link').disabled = !view || Boolean(wrong?.id || scene.untold);
   if (!isSeen) return offerCopy(Boolean(view && !wrong && !scene.untold));
-  if (!isNewForm(scene, chosen, wrong)) return;
+  const form = chosen().id.replace('form-', '');
+  if (!isNewForm(scene, form, wrong)) return;
   say('');
   // A newer one may be under way, which then is what is shown and copied.
-  const of = (made = wrong ? Promise.resolve({}) : written(scene, chosen));
+  const of = (made = wrong ? Promise.resolve({}) : written(scene, form));
   $('code').classList.add('waits');
   if (wrong) offerCopy(false);
   of.then((it) => of === made && showForm(it));

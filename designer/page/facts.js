@@ -1,7 +1,7 @@
 // The answer: a trace's results or a curve's facts as the program tells them, and beside each what is doubtful.
 
 import { html, nothing, render } from 'lit-html';
-import { $, watch, write } from './dom.js';
+import { $, watch } from './dom.js';
 import { change, model } from './model.js';
 import { rms } from './graph.js';
 import { dial } from './numbers.js';
@@ -30,6 +30,8 @@ const ABOUT = {
 };
 /** What stands elsewhere on the page, and what only firmware wants. */
 const HIDDEN = ['shutter', 'opens', 'nominal', 'direct'];
+/** What a fit tells otherwise. */
+const OF_CURVE = ['trace', 'measured', 'half open'];
 const TITLES = { triggers: 'flashes' };
 
 /** A fit to its trace, as long as that is what is on the screen. */
@@ -45,39 +47,30 @@ export function doubtsOf(model) {
 }
 
 // The facts under their titles, those of a fit in place of its curve's.
-function factsOf({ now: { scene, trace }, view }, told, fit) {
-  const of = new Map([['exposure', '']]);
-  const add = ({ label, text }) => text && of.set(label, [of.get(label), text].filter(Boolean).join(', '));
-  told.facts.filter(({ label }) => !HIDDEN.includes(label)).forEach(add);
-  if (!told.facts.length && !scene.own) {
-    add({ label: 'exposure', text: `${short(view.exposure * perSecond(scene.unit))} ${scene.unit}` });
+function factsOf({ now: { scene: { own, unit, shutter: { nominal } } }, view }, told, fit) {
+  const per = perSecond(unit), near = fit?.nearest_s;
+  // A curve that does not explain its trace tells no exposure; the trace does.
+  const exposure = fit ? fit.exposure_s : own ? null : view.exposure;
+  const called = nominal ? ` for ${dial(nominal / per)}: ${stops(exposure, nominal / per)}`
+    : near ? `; nearest full stop: ${dial(near)}` : '';
+  const facts = new Map([['exposure', ''], ['speed', exposure === null ? '' : `${dial(exposure)} s${called}`]]);
+  const without = [...HIDDEN, ...(fit ? [...OF_CURVE, ...fit.facts.map(({ label }) => label)] : [])];
+  const rest = told.facts.filter(({ label }) => !without.includes(label));
+  // Of what cannot be planned, that much is known.
+  const alone = fit || own || told.facts.length ? [] : [{ label: 'exposure', text: `${short(exposure * per)} ${unit}` }];
+  for (const { label, text } of [...(fit?.facts ?? []), ...alone, ...rest]) {
+    if (text) facts.set(label, [facts.get(label), text].filter(Boolean).join(', '));
   }
-  if (!of.get('exposure')) of.delete('exposure');
-  if (!fit) return of;
-  const first = new Map(fit.facts.map(({ label, text }) => [label, text]));
-  for (const label of ['trace', 'measured', 'half open']) of.delete(label);
-  return new Map([...first, ...[...of].filter(([label]) => !first.has(label))]);
+  return new Map([...facts].filter(([, text]) => text));
 }
 
 const isNewFact = watch();
 
 /** Draws them; the graph shows `samples` of the trace. */
 export function drawFacts(model, samples) {
-  const { now: { scene, trace }, view, isDraft } = model, told = toldNow(model);
+  const { now: { trace }, view, isDraft } = model, told = toldNow(model);
   if (!view || !told || !isNewFact(told, trace, view, samples, isDraft)) return;
-  const { own, shutter: { nominal }, unit } = scene;
   const fit = fitOf(model.now), facts = factsOf(model, told, fit), doubts = doubtsOf(model);
-  // A curve that does not explain its trace tells no exposure; the trace does.
-  const exposure = fit ? fit.exposure_s : own ? null : view.exposure;
-  if (exposure !== null) {
-    const near = fit?.nearest_s, dialled = nominal / perSecond(unit);
-    const called = nominal ? ` for ${dial(dialled)}: ${stops(exposure, dialled)}`
-      : near ? `; nearest full stop: ${dial(near)}` : '';
-    const all = [...facts], at = all.findIndex(([label]) => label === 'exposure') + 1;
-    all.splice(at, 0, ['speed', `${dial(exposure)} s${called}`]);
-    facts.clear();
-    all.forEach(([label, text]) => facts.set(label, text));
-  }
   const [first] = facts.keys();
   const line = ([title, text]) => {
     const about = doubts.filter((it) => title === (facts.has(it.about) ? it.about : first));
@@ -92,9 +85,6 @@ export function drawFacts(model, samples) {
   const changed = trace && !fit && samples ? byHand(trace, samples) : nothing;
   const name = trace ? html`<h3>${trace.name}</h3>` : nothing;
   render(html`${name}<dl>${[...facts].map(line)}</dl>${changed}`, $('facts'));
-  const isDoubted = doubts.some(({ about }) => about === 'exposure');
-  const n = own?.trigger_times.length;
-  write($('speed'), exposure !== null ? `${dial(exposure)} s${isDoubted ? ', doubtful' : ''}` : `${n} measured times`);
 }
 
 function byHand({ fit }, samples) {

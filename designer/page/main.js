@@ -1,8 +1,8 @@
 // The page: draws the model, and changes it as a person asks.
 
-import { presets, repository as REPOSITORY } from 'presets';
+import { presets } from 'presets';
 import { html, nothing, render } from 'lit-html';
-import { $, arrowed } from './dom.js';
+import { $ } from './dom.js';
 import { drawExport, showExport, startExport } from './export.js';
 import { drawFacts } from './facts.js';
 import { drawForm, startForm } from './form.js';
@@ -73,8 +73,7 @@ function drawPresets({ now, last }) {
   const at = hash({ scene: now.scene });
   const choose = ({ name, scene }) => (TITLES[name] ? change({ scene, trace: null, speeds: null }) : openExample());
   const isPressed = (it) => Boolean(last) && !now.speeds && it.address === at;
-  const stop = offered.find(isPressed) ?? offered[0];
-  const button = (it) => html`<button type="button" data-name=${it.name} tabindex=${it === stop ? 0 : -1}
+  const button = (it) => html`<button type="button" data-name=${it.name}
     aria-pressed=${TITLES[it.name] ? isPressed(it) : nothing} @click=${() => choose(it)}>
     <svg viewBox="0 0 60 24" aria-hidden="true"><path d=${it.path} /></svg>
     <b>${TITLES[it.name] ?? 'A measured example'}</b></button>`;
@@ -82,11 +81,6 @@ function drawPresets({ now, last }) {
 }
 
 function listen() {
-  // One stop of Tab, and arrows from there.
-  $('presets').onkeydown = (event) => {
-    const all = [...$('presets').children];
-    all[arrowed(event, all.indexOf(event.target.closest('button')), all.length)]?.focus();
-  };
   const observer = new IntersectionObserver((entries) => {
     for (const { target: { dataset: { panel } }, isIntersecting } of entries) {
       inSight[isIntersecting ? 'add' : 'delete'](panel);
@@ -123,9 +117,6 @@ async function begin() {
   startExport();
   startModel({ scene: offered[0].scene, trace: null, speeds: null }, drawAll);
   listen();
-  const trace = `${REPOSITORY}/blob/main/docs/measuring.md`;
-  const links = html`<a href=${REPOSITORY}>The crate</a> <a href=${trace}>How to record a trace</a>`;
-  if (REPOSITORY) render(links, $('links'));
   document.body.dataset.ready = '';
   performance.mark('ready');
 }

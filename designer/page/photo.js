@@ -3,18 +3,12 @@
 
 import { $, watch, write } from './dom.js';
 import { collected, shareAt } from './graph.js';
-import { STOPS, short } from './scene.js';
+import { STOPS } from './scene.js';
 
 const WIDTH = 480, RADIUS = 35, HEIGHT = 2 * RADIUS, FINE = 2;
 const BALL = [255, 238, 205], NIGHT = [13, 16, 24];
 // The steps of the ball's way.
 const STEPS = FINE * (WIDTH - HEIGHT);
-
-/** Doses in words: `50, 100 and 50 %`. */
-function percents(doses) {
-  const all = doses.map((dose) => short(100 * dose, 3));
-  return `${[all.slice(0, -1).join(', '), all.at(-1)].filter(Boolean).join(' and ')} %`;
-}
 
 // From linear light to the bytes of a picture.
 const SHADES = new Uint32Array(new Uint8ClampedArray(Array.from({ length: 1025 }, (_, i) => {
@@ -72,18 +66,18 @@ function developed(scene, view) {
 const isNewPhoto = watch();
 
 export function drawPhoto({ now: { scene }, last: view }) {
-  const { own, flashes: { triggers, pulse, duty } } = scene;
+  const { own, flashes: { triggers, pulse, duty, fully_open, set_up } } = scene;
   $('flashes').value = STOPS.findLastIndex((n) => n <= triggers);
   $('flashes').setAttribute('aria-valuetext', `${triggers} flashes`);
   write($('flash-count'), String(triggers));
   if (!view || !isNewPhoto(view, own)) return;
   const pictures = developed(scene, view);
   for (const [i, id] of ['ideal', 'flashed'].entries()) $(id).getContext('2d').putImageData(pictures[i], 0, 0);
-  const { marks: { length: n }, plan } = view;
-  const doses = plan.Ok?.doses.length && percents(plan.Ok.doses);
+  const n = view.marks.length;
   const what = `${n} ${pulse !== null || duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}`;
-  const dimmed = `, as if of equal light; through this shutter they give ${doses}`;
-  write($('flash-caption'), what + (doses ? dimmed : n > 1 ? ' of equal light' : ''));
+  // How a shutter in the light's path dims them is told with the set-up.
+  const isDimmed = set_up === 'in_path' && duty === null && !fully_open;
+  write($('flash-caption'), what + (isDimmed ? ', as if of equal light' : n > 1 ? ' of equal light' : ''));
   const steady = 'this shutter, in steady light', told = 'this shutter, as its trace tells between the flashes';
   write($('ideal-caption'), own ? told : steady);
 }

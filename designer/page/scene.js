@@ -21,8 +21,9 @@ export const FIELDS = Object.keys(KINDS).filter((key) => !CHOICES[key]);
 export const LAMP = ['pulse', 'duty', 'min_pulse', 'fully_open'];
 /** What a person has given who gives a whole scene. */
 export const GIVEN = ['name', 'unit', 'lamp', ...Object.keys({ ...SHUTTER, ...FLASHES })];
-/** What a fit measures, in its own unit. */
-const MEASURED = ['exposure', 'exposure_error', 'delay_error', 'trigger_error', 'delay_worst'];
+/** What is a time, of a scene, a fit and a trace's own triggers. */
+const SPANS = new Set(['exposure', 'exposure_error', 'delay_error', 'trigger_error', 'delay_worst', 'trigger_times',
+  ...Object.keys(KINDS).filter((key) => ['time', 'dial'].includes(KINDS[key]))]);
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
 /** A longer part of an address is no link of this page's. */
 const LONGEST = 60_000;
@@ -77,17 +78,12 @@ export function inUnit(scene, unit) {
   const by = UNITS.indexOf(unit) - UNITS.indexOf(scene.unit), factor = 1000 ** Math.abs(by);
   if (!by) return scene;
   const convert = (x) => (x == null ? x : tidy(by < 0 ? x / factor : x * factor));
-  const all = (table, keys) => ({ ...table, ...Object.fromEntries(keys.map((key) => [key, convert(table[key])])) });
-  const isTime = ([, kind]) => kind === 'time' || kind === 'dial';
-  const spans = (keys) => Object.entries(keys).filter(isTime).map(([key]) => key);
-  const { shutter, own } = scene, { measured } = shutter;
+  const told = (table) => table && Object.fromEntries(Object.entries(table).map(([key, x]) =>
+    [key, !SPANS.has(key) ? x : Array.isArray(x) ? x.map(convert) : convert(x)]));
+  const { shutter, flashes, own } = scene, { measured } = shutter;
   return {
-    ...scene, unit, flashes: all(scene.flashes, spans(FLASHES)),
-    shutter: {
-      ...all(shutter, [...TIMES, ...spans(SHUTTER)]),
-      measured: measured && { ...all(measured, MEASURED.filter((key) => measured[key] != null)), unit },
-    },
-    own: own && { open_start: convert(own.open_start), trigger_times: own.trigger_times.map(convert) },
+    ...scene, unit, flashes: told(flashes), own: told(own),
+    shutter: { ...told(shutter), measured: measured && { ...told(measured), unit } },
   };
 }
 

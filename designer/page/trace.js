@@ -6,7 +6,7 @@ import { change, model, tell } from './model.js';
 import { taken } from './numbers.js';
 import { units as UNITS } from 'presets';
 import {
-  GIVEN, LAMP, fromScene, inUnit, isCount, isSameShape, originOf, perSecond, short, syncOf, tidy,
+  GIVEN, LAMP, fromScene, inUnit, isCount, isSameShape, perSecond, short, syncOf, tidy,
 } from './scene.js';
 import { cancelFit, fitTrace, openScene as parseScene } from './studio.js';
 
@@ -152,23 +152,19 @@ function withFit(scene, triggers, name, fit, isSame, isSameReading) {
 
 // Measures the speeds of several traces, one after the other.
 async function measure(files) {
-  const speeds = [];
+  const speeds = [], none = { exposure: 0, error: 0, scatter: 0, pulses: 0, near: null, dial: null, doubts: [] };
   for (const [i, file] of files.entries()) {
     const busy = computing(`Measuring ${i + 1} of ${files.length}: ${file.name}`);
     const answer = await fitted(busy, file, { triggers: 12 });
     if (!answer) return;
-    const fit = answer.Ok?.fit.Ok;
-    const row = { name: file.name, exposure: 0, error: 0, scatter: 0, pulses: 0, near: null, dial: null, doubts: [] };
-    if (fit) {
-      row.kind = fit.shutter.trigger_times ? 'the trace itself' : fit.kind;
-      row.doubts = fit.warnings.map(({ text }) => text);
-      const { exposure_s: exposure, exposure_error_s: error, scatter, pulses } = fit;
-      row.near = fit.nearest_s;
-      const told = { exposure, error, scatter, pulses };
-      for (const [key, x] of Object.entries(told)) row[key] = tidy(x, 6);
-    } else row.kind = `not measured: ${(answer.Err ?? answer.Ok.fit.Err.text).split('\n')[0]}`;
-    rowFiles.set(row, file);
-    speeds.push(row);
+    const { Ok: fit, Err: why } = answer.Ok?.fit ?? { Err: { text: answer.Err } };
+    const { exposure_s: exposure, exposure_error_s: error, scatter, pulses, nearest_s: near } = fit ?? {};
+    const found = fit ? {
+      exposure: tidy(exposure, 6), error: tidy(error, 6), scatter: tidy(scatter, 6), pulses, near,
+      doubts: fit.warnings.map(({ text }) => text), kind: fit.shutter.trigger_times ? 'the trace itself' : fit.kind,
+    } : { kind: `not measured: ${why.text.split('\n')[0]}` };
+    speeds.push({ name: file.name, ...none, ...found });
+    rowFiles.set(speeds.at(-1), file);
   }
   tell({ busy: null });
   change({ speeds });
@@ -178,17 +174,17 @@ const isNewTrace = watch();
 
 /** Draws how the model's trace is read. */
 export function drawTrace({ now: { scene, trace }, pending }) {
-  const { unit, flashes: { triggers } } = scene;
+  const { unit } = scene;
   const isHand = trace && !isSameShape(trace.scene, scene);
-  if (!isNewTrace(trace, pending, unit, triggers, isHand)) return;
-  render(panel(pending ?? trace, trace, pending, isHand, scene), $('trace'));
+  if (!isNewTrace(trace, pending, unit, isHand)) return;
+  render(panel(pending ?? trace, trace, pending, isHand), $('trace'));
   if (pending) $('reading').open = true;
 }
 
 const press = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
 const note = (words) => html`<p class="note">${words}</p>`;
 
-function panel(shown, trace, pending, isHand, scene) {
+function panel(shown, trace, pending, isHand) {
   if (!shown) {
     return note('Open or drop a trace: the CSV of an oscilloscope or a shutter tester, or the WAV of a sound card. The '
       + 'simplest curve that serves is fitted to it. Several make a table of speeds. Nothing leaves this page.');
@@ -204,7 +200,8 @@ function panel(shown, trace, pending, isHand, scene) {
       ${previewTable(measured)}
       ${file ? readingForm(shown) : note('To read it otherwise, open the file again.')}
     </details>
-    ${fit && !isHand ? details(fit, scene) : nothing}
+    ${fit && !isHand ? html`<details id="report"><summary>The whole report</summary>
+      <pre tabindex="0">${fit.report}</pre></details>` : nothing}
     <span class="buttons">
       ${trace ? press('Remove the trace', () => change({ trace: null, scene: { ...model.now.scene } })) : nothing}
       ${pending ? press('Close', () => tell({ note: null, pending: null })) : nothing}</span>`;
@@ -319,15 +316,4 @@ function readingForm({ file, asked, record, measured: { names, read }, fit }) {
     ${all > 1 || asked.frame
       ? choice('pulse', 'frame', frames, asked.frame ?? fit.pulse, (it) => ({ frame: Number(it) })) : nothing}
   </fieldset>`;
-}
-
-function details({ triggers: told, shutter, report }, scene) {
-  const { unit, flashes: { triggers } } = scene, per = perSecond(unit), origin = originOf(scene);
-  const lines = told.map(([t, error], i) => `${i}  ${short(t * per - origin, 7)} ± ${short(error * per, 2)}`);
-  const head = `#  ${unit}${syncOf(scene).delay === null ? '' : ' after the edge of the sync'}, with standard error`;
-  const summary = `The ${told.length} times by the ${shutter.trigger_times ? 'trace' : 'curve'}, with their errors`;
-  const text = (id, summary, text) =>
-    html`<details id=${id}><summary>${summary}</summary><pre tabindex="0">${text}</pre></details>`;
-  const times = text('times', summary, [head, ...lines].join('\n'));
-  return [told.length === triggers ? times : nothing, text('report', 'The whole report', report)];
 }

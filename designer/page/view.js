@@ -48,12 +48,12 @@ function copied(view, origin) {
     return { Err: { key: 'flashes.delay', reason } };
   }
   const { early, hz, from_edge: delay = null } = view;
-  const ticks = [...view.ticks], pulses = tuples(view.pulses, 2), doses = [...view.doses];
+  const ticks = [...view.ticks], pulses = tuples(view.pulses, 2);
   return {
     Ok: {
       times, ramps: [points.slice(0, 4), points.slice(4)], cdf: later(view.cdf, 2), exposure: view.exposure,
       edges: later(view.edges, 1).flat(), marks: later(view.marks, 3),
-      plan: wrong ?? { Ok: { ticks, pulses, early, delay, hz, doses } },
+      plan: wrong ?? { Ok: { ticks, pulses, early, delay, hz } },
     },
   };
 }

@@ -5,7 +5,6 @@
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 use shutter_fit::unit::Unit;
-use shutter_plan::facts::ends;
 use shutter_plan::fault::Fault;
 use shutter_plan::lamp::{Lamp, SetUp};
 use shutter_plan::plan::{MOST_TRIGGERS, Plan};
@@ -50,8 +49,6 @@ pub struct View {
     pub from_edge: Option<u32>,
     /// The timer's rate.
     pub hz: u32,
-    /// The light of the first, the middle and the last flash, where the set-up is known and they differ.
-    pub doses: Vec<f64>,
     /// The key that is wrong, as `flashes.triggers`; empty where it is none's.
     pub wrong: Option<String>,
     /// From where to where it is wrong among the inner control points.
@@ -186,9 +183,6 @@ impl Question {
         view.early = early;
         view.from_edge = plan.sync.delay.map(|_| plan.sync.ticks);
         view.hz = plan.timer.hz;
-        let doses = plan.scene.flashes.set_up.map_or(Vec::new(), |set_up| plan.doses(set_up));
-        let is_even = doses.iter().all(|dose| *dose > 0.985);
-        view.doses = if is_even { Vec::new() } else { ends(&doses) };
         Ok(())
     }
 }

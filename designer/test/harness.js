@@ -76,7 +76,6 @@ export async function open(hash = SOFT, size = { width: 1360, height: 2800 }) {
 
 export async function ready(on = page) {
   await on.waitForSelector('body[data-ready]');
-  await on.waitForSelector('#forms button');
   await drawn(on);
 }
 
@@ -181,7 +180,7 @@ export async function copiedBy(act) {
 
 /** A form, once it is written. */
 export async function choose(form) {
-  await page.click(`#form-${form}`);
+  await page.$eval(`#form-${form}`, (it) => it.click());
   await written();
 }
 

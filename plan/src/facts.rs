@@ -404,7 +404,7 @@ pub fn few(doses: &[f64]) -> String {
 }
 
 /// The first dose, the middle one and the last, as far as these are several.
-pub fn ends(doses: &[f64]) -> Vec<f64> {
+fn ends(doses: &[f64]) -> Vec<f64> {
     let mut places = vec![0, doses.len() / 2, doses.len() - 1];
     places.dedup();
     places.into_iter().map(|i| doses[i]).collect()

@@ -1,5 +1,4 @@
-//! Prints what the page takes from here: scenes of `cli/scenes` and what is told of them, the units, where the crate
-//! lives.
+//! Prints what the page takes from here: scenes of `cli/scenes` and what is told of them, and the units.
 
 use std::error::Error;
 use std::fs;
@@ -11,8 +10,6 @@ use shutter_plan::plan::Plan;
 use shutter_plan::scene::Scene;
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../cli/scenes");
-/// The one place that has the repository's address.
-const MANIFEST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
 /// What the page offers.
 const OFFERED: [&str; 5] = ["leaf", "trapezoid", "box", "liquid-crystal", "measured"];
 
@@ -25,7 +22,6 @@ struct Preset {
 
 #[derive(Serialize)]
 struct Told<'a> {
-    repository: Option<&'a str>,
     units: &'a [Unit],
     presets: Vec<Preset>,
 }
@@ -38,9 +34,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ok::<_, Box<dyn Error>>(Preset { name, scene, told: Facts::new(&plan) })
     };
     let presets = OFFERED.into_iter().map(preset).collect::<Result<Vec<_>, _>>()?;
-    let manifest = fs::read_to_string(MANIFEST)?;
-    let repository = manifest.lines().find_map(|line| line.strip_prefix("repository = "));
-    let repository = repository.map(|it| it.trim_matches('"'));
-    println!("{}", serde_json::to_string(&Told { repository, units: &Unit::ALL, presets })?);
+    println!("{}", serde_json::to_string(&Told { units: &Unit::ALL, presets })?);
     Ok(())
 }
