@@ -3,15 +3,11 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import {
-  ROOT, bouncing, choose, curve, drag, drop, open, page, preset, ready, rows, setUp, settled, ticks, trace, values,
-} from './harness.js';
+import { ROOT, curve, drag, open, page, preset, ready, setUp, settled, values } from './harness.js';
 
 setUp('firefox');
 
-const LONG = { timeout: 180_000 };
-
-test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload keeps the steps', LONG, async () => {
+test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload keeps the steps', async () => {
   await open(undefined, { width: 1280, height: 1500 });
   const first = await values();
   await settled();
@@ -36,16 +32,4 @@ test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload 
   await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, drawn);
   await page.press('Control+z');
   assert.deepEqual(await values(), first);
-});
-
-test('in Firefox a misfit is exported by its own times, and several traces make a table', LONG, async () => {
-  await open(undefined, { width: 1280, height: 2800 });
-  await drop(['bounce.csv', bouncing()]);
-  await page.says('at the trace’s own times');
-  await choose('toml');
-  assert.match(await page.text('#code'), /trigger_times = /);
-  assert.equal((await ticks()).length, 12);
-  await drop(['250.csv', trace({ open: 1.5 })], ['125.csv', trace({ open: 5.5 })]);
-  await page.waitForSelector('#speeds:not([hidden])');
-  assert.deepEqual((await rows('#speeds-table tbody')).map((row) => row[2]), ['1/250', '1/125']);
 });

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, afterEach, before } from 'node:test';
@@ -12,7 +12,6 @@ import { launch } from 'puppeteer-core';
 export const ROOT = join(import.meta.dirname, '..', '..');
 export const SCENES = join(ROOT, 'cli', 'scenes');
 export const scratch = mkdtempSync(join(tmpdir(), 'designer-'));
-const downloads = join(scratch, 'downloads');
 const SHUTTER = process.env.SHUTTER;
 
 export let server, url, browser, page;
@@ -33,7 +32,6 @@ const BROWSERS = {
 /** Begins with a server and a browser. No test leaves an error on the console, nor a request to anyone else. */
 export function setUp(name = 'chrome') {
   before(async () => {
-    mkdirSync(downloads, { recursive: true });
     const args = ['design', '--no-open', '--port', '0', '--page', join(ROOT, 'designer', 'dist')];
     server = spawn(SHUTTER, args, { stdio: ['ignore', 'pipe', 'inherit'] });
     const [told] = await once(server.stdout, 'data');
@@ -199,16 +197,11 @@ export async function planned(form = 'json', name = 'copied') {
 
 /** What the file is called that an action saves. */
 export async function saved(act) {
-  const session = await page.createCDPSession();
-  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: downloads });
-  rmSync(downloads, { recursive: true });
-  mkdirSync(downloads);
+  const session = await page.createCDPSession(), to = { behavior: 'allow', downloadPath: scratch, eventsEnabled: true };
+  await session.send('Browser.setDownloadBehavior', to);
+  const begun = once(session, 'Browser.downloadWillBegin');
   await act();
-  for (let i = 0; i < 3000; i++, await new Promise((done) => setTimeout(done, 20))) {
-    const [name] = readdirSync(downloads);
-    if (name && !name.endsWith('.crdownload')) return name;
-  }
-  assert.fail('nothing was saved');
+  return (await begun)[0].suggestedFilename;
 }
 
 /** What stands in the rows of a table. */

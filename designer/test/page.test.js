@@ -48,7 +48,7 @@ test('the first screen takes at most 90 kB, compressed, and all files 430 kB', a
   assert.ok(sums[0] <= 90 && sums[1] <= 430, String(sums));
 });
 
-test('each key of the program’s scene has a field, and goes into link and TOML', async () => {
+test('each key of the program’s scene has a field', async () => {
   await open();
   // As docs/scene.md has them.
   const doc = readFileSync(join(ROOT, 'docs', 'scene.md'), 'utf8');
@@ -58,19 +58,6 @@ test('each key of the program’s scene has a field, and goes into link and TOML
   assert.deepEqual(new Set(known), new Set(keys.filter((key) => !others.includes(key))));
   const missing = await page.evaluate(() => Object.keys(designer.KINDS).filter((id) => !document.getElementById(id)));
   assert.deepEqual(missing, ['fully_open']);
-  const { toml, link } = await page.evaluate(() => {
-    const { KINDS, hash, model: { now }, toProgram, valueOf } = designer;
-    const all = (table) => Object.fromEntries(Object.keys(table).map((key) => [key, table[key] ?? 1]));
-    const drawn = { ...all(now.scene.shutter), measured: null };
-    const scene = { ...now.scene, flashes: all(now.scene.flashes), shutter: drawn };
-    const lacks = (has) => Object.keys(KINDS).filter((key) => !has(key));
-    const { shutter, flashes } = toProgram(scene), link = hash({ scene });
-    return {
-      toml: lacks((key) => key in shutter || key in flashes || /^[ty]\d$/.test(key)),
-      link: lacks((key) => link.includes(`&${key}=`) || valueOf(now.scene, key) !== null),
-    };
-  });
-  assert.deepEqual([toml, link], [[], []]);
 });
 
 test('wrong numbers stay as they are typed, with the reason', async () => {
@@ -192,16 +179,6 @@ test('handles in one place can each be taken, and keys move each within its box'
   }
 });
 
-test('each form is saved under its name', async () => {
-  await open();
-  await preset('liquid-crystal');
-  const files = { rust: 'liquid_crystal.rs', c: 'liquid_crystal.h', toml: 'liquid-crystal.toml' };
-  for (const [form, file] of Object.entries(files)) {
-    await choose(form);
-    assert.equal(await saved(() => page.click('#save')), file);
-  }
-});
-
 test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, which way the sync goes', async () => {
   await open(SOFT.replace('&timer_hz=1000000', '').replace('&set_up=emulated', '').replace('&min_gap=0.4', '')
     + '&delay=1');
@@ -289,8 +266,18 @@ test('the delay ends at the opening: the edge of the sync stands still, whatever
 test('on a trace the edge stands where the sync has it, and nothing that a hand moved is taken away', async () => {
   await open('');
   await measure('two.csv', synced());
+  await page.push('Choose its channel');
+  assert.equal(await focused(), 'sync');
   await page.fill('#trace [name=sync]', '3');
   await page.until(() => designer.model.now.scene.shutter.delay !== null && !designer.model.busy);
+  // What is outside of a window does not count; it is in the unit of the file's times.
+  await page.fill('#trace [name=from]', '10 ms');
+  await isRefused();
+  assert.match(await page.text('#trace .wrong'), /no whole pulse/);
+  await page.fill('#trace [name=from]', '0.001');
+  await isRead();
+  assert.match(await page.text('#report pre'), /^samples +1900,/m);
+  assert.equal(await page.value('#sync_falls'), 'true');
   await fill({ timer_hz: '1 MHz', set_up: 'emulated', min_gap: '0' });
   const edge = () => page.evaluate(() => designer.originOf(designer.model.now.scene));
   const same = async (x) => assert.ok(Math.abs((await edge()) - x) < 1e-9, String(await edge()));
@@ -324,36 +311,18 @@ test('on a trace the edge stands where the sync has it, and nothing that a hand 
   assert.equal(await page.value('#delay'), '');
 });
 
-test('a doubt of a fit goes with the fit: what is drawn is doubted no more', async () => {
-  await open();
-  await measure('clipped.csv', clipped());
-  for (const form of ['toml', 'rust', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
-  await dragged('open_end', 20, 0);
-  for (const form of ['toml', 'rust', 'json']) assert.doesNotMatch(await copied(form), /clipped: /, form);
-  assert.doesNotMatch(await address(), /clipped:|trace=/);
-  await page.push('Back to the fit');
-  assert.match(await copied('json'), /clipped: \d+ %/);
-});
-
 test('the keyboard alone gets from a preset to a copied module, in twelve stops of Tab; nothing moves', async () => {
-  await page?.close();
   for (const [width, height] of [[1440, 900], [390, 844]]) {
-    const fresh = extend(await browser.newPage());
-    await fresh.evaluateOnNewDocument(() => {
+    await open('', { width, height });
+    await page.evaluate(() => {
       globalThis.shift = 0;
       const add = (list) => list.getEntries().forEach(({ value }) => (shift += value));
       new PerformanceObserver(add).observe({ type: 'layout-shift', buffered: true });
     });
-    await fresh.setViewport({ width, height });
-    await fresh.goto(url);
-    await ready(fresh);
-    assert.ok((await fresh.evaluate(() => globalThis.shift)) < 0.05);
     let stops = 0;
-    for (; (await fresh.evaluate(() => document.activeElement.id)) !== 'copy' && stops < 40; stops++) {
-      await fresh.press('Tab');
-    }
+    for (; (await focused()) !== 'copy' && stops < 40; stops++) await page.press('Tab');
     assert.ok(stops <= 12, `${width}: ${stops}`);
-    await fresh.close();
+    assert.ok((await page.evaluate(() => shift)) < 0.05);
   }
   await open('');
   const tabTo = async (id) => {
@@ -371,6 +340,16 @@ test('the keyboard alone gets from a preset to a copied module, in twelve stops 
   await page.press('Enter');
   await page.until(() => /Copied/.test(document.getElementById('told').textContent));
   assert.match(await page.evaluate(() => navigator.clipboard.readText()), /pub const TICKS/);
+});
+
+test('each form is saved under its name', async () => {
+  await open();
+  await preset('liquid-crystal');
+  const files = { rust: 'liquid_crystal.rs', c: 'liquid_crystal.h', toml: 'liquid-crystal.toml' };
+  for (const [form, file] of Object.entries(files)) {
+    await choose(form);
+    assert.equal(await saved(() => page.click('#save')), file);
+  }
 });
 
 test('a move writes nothing that is not seen', async () => {
@@ -456,25 +435,6 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong is m
   assert.ok(!(await page.isSeen('#trace .wrong')));
 });
 
-test('a channel of the sync gives the delay, and its way; what is outside of a window does not count', async () => {
-  await open('');
-  await measure('two.csv', synced());
-  await page.push('Choose its channel');
-  assert.equal(await focused(), 'sync');
-  await page.fill('#trace [name=sync]', '3');
-  await page.until(() => designer.model.now.scene.shutter.delay !== null && !designer.model.busy);
-  assert.ok(Math.abs(await number('delay') - 3) < 0.02, await page.value('#delay'));
-  assert.equal(await page.value('#sync_falls'), 'true');
-  // In the unit of the file's times.
-  await page.fill('#trace [name=from]', '10 ms');
-  await isRefused();
-  assert.match(await page.text('#trace .wrong'), /no whole pulse/);
-  await page.fill('#trace [name=from]', '0.001');
-  await isRead();
-  assert.match(await page.text('#report pre'), /^samples +1900,/m);
-  assert.match(await copied('toml'), /^delay = (2\.9|3\.0)\d*\nsync_falls = true$/m);
-});
-
 test('a window is dragged on the whole record, in the file’s own time', async () => {
   await open('');
   const two = trace({ samples: 4000, more: (t) => (t > 20 && t < 24 ? 0.6 : 0) });
@@ -509,17 +469,6 @@ test('a window is dragged on the whole record, in the file’s own time', async 
   await isRead();
   await page.push('take the whole record');
   await page.until(() => designer.model.now.trace.asked.to === null);
-});
-
-test('the words are explained on the page itself', async () => {
-  await open('');
-  await page.push('What do the words mean?');
-  const told = await page.text('#terms');
-  for (const word of ['T1', 'T2', 'T3', 'TE', 'TV', 'efficiency', 'Emulated', 'In the path']) {
-    assert.ok(told.includes(word), word);
-  }
-  assert.ok(await page.isSeen('#terms svg'));
-  for (const sel of ['#trace', '#drop']) assert.match(await page.text(sel), /WAV/);
 });
 
 test('a scene in TOML is as it was written, and what is given in it stays; a broken one is refused', async () => {
@@ -634,6 +583,8 @@ test('axe finds nothing in any state of the page, in light and dark', async () =
       await page.click('#undo');
       await preset('measured');
       await fitted('leaf.csv');
+      await page.push('What do the words mean?');
+      assert.ok(await page.isSeen('#terms svg'));
       await page.$$eval('details', (all) => all.forEach((it) => (it.open = true)));
     },
     refused: async () => {
@@ -726,26 +677,14 @@ test('a shutter whose flashes do not fit is shown, undone and redone; what would
   assert.equal((await ticks()).length, 12);
 });
 
-test('a misfit takes the trace’s own times away, as the program does; a change by hand is the curve’s', async () => {
+test('a misfit takes the trace’s own times away; a change by hand is the curve’s', async () => {
   await open('');
   await measure('bounce.csv', bouncing());
-  const program = async (n) => {
-    const [file, scene] = [join(scratch, 'bounce.csv'), join(scratch, `bounce${n}.toml`)];
-    writeFileSync(file, bouncing());
-    shutter('fit', file, '--triggers', n, '--out', scene, '--force');
-    const [there, here] = [readFileSync(scene, 'utf8'), await copied('toml')].map((text) => {
-      const [, times] = /trigger_times = \[([^\]]*)\]/.exec(text);
-      return times.split(',').map(Number).filter((x) => x);
-    });
-    assert.deepEqual(here, there);
-  };
-  await program('6');
   assert.match(await facts(), /at the trace’s own times/);
   assert.doesNotMatch(await page.$eval('#hint', (it) => it.innerText), /Shaded/, 'no curve shares the exposure out');
   // Another number of them is asked of the trace.
   await page.fill('#triggers', '9');
   await page.until(() => document.querySelectorAll('#ticks tbody tr').length === 9);
-  await program('9');
   const [own, shown, left] = [await copied('toml'), await curve(), await page.attribute('path.residual', 'd')];
   // A link holds them, without the trace.
   const link = await copiedBy(() => page.click('#link'));
@@ -807,8 +746,8 @@ test('another shutter ends what is computed; a number that is typed meanwhile co
   assert.equal(await page.evaluate(() => designer.model.now.trace.fit.triggers.length), 13);
 });
 
-test('the photograph follows the drag', async () => {
-  await open();
+test('the photograph follows the drag; the slider of flashes moves by its keys, and tells the number', async () => {
+  await open(SOFT.replace('min_gap=0.4', 'min_gap=0'));
   const photos = () => page.$$eval('.photos canvas', (all) => all.map((it) => it.toDataURL()));
   const first = await photos();
   await drag('close_start', -60, 0);
@@ -818,6 +757,14 @@ test('the photograph follows the drag', async () => {
   await page.mouse.up();
   await page.mouse.move(5, 5);
   assert.deepEqual(await photos(), first);
+  await page.focus('#flashes');
+  for (const [key, n] of [
+    ['ArrowRight', 13], ['ArrowUp', 14], ['ArrowLeft', 13], ['ArrowDown', 12], ['ArrowLeft', 11], ['End', 256],
+  ]) {
+    await page.press(key);
+    assert.equal(await page.value('#triggers'), String(n), key);
+    assert.equal(await page.attribute('#flashes', 'aria-valuetext'), `${n} flashes`);
+  }
 });
 
 test('several traces are a table alone, which prints, and a link that holds it', async () => {
@@ -905,13 +852,19 @@ test('a part that cannot be drawn is told, and the address stays right', async (
   forgive();
 });
 
-test('a clipped trace is doubted on the screen, in every form, link and row', async () => {
+test('a clipped trace is doubted on the screen, in every form, link and row; what is drawn is not', async () => {
   await open();
   await measure('clipped.csv', clipped());
   assert.match(await facts(), /exposure7\.\d+ ± [\d.]+ ms\s*clipped: \d+ % of the pulse’s samples[^]*testuntested/);
-  for (const form of ['rust', 'c', 'toml', 'json']) assert.match(await copied(form), /clipped: \d+ %/, form);
+  const forms = ['rust', 'c', 'toml', 'json'];
+  for (const form of forms) assert.match(await copied(form), /clipped: \d+ %/, form);
   JSON.parse(await copied('json'));
   const link = await copiedBy(() => page.click('#link'));
+  await dragged('open_end', 20, 0);
+  for (const form of forms) assert.doesNotMatch(await copied(form), /clipped: \d/, form);
+  assert.doesNotMatch(await address(), /clipped: \d|trace=/);
+  await page.push('Back to the fit');
+  assert.match(await copied('json'), /clipped: \d+ %/);
   await follow(link);
   assert.match(await facts(), /clipped: \d+ %/);
   await drop(['clipped.csv', clipped()], ['clean.csv', trace()]);
@@ -921,18 +874,6 @@ test('a clipped trace is doubted on the screen, in every form, link and row', as
   assert.deepEqual(isClipped, { 'clipped.csv': true, 'clean.csv': false });
   await follow(await copiedBy(() => page.click('#speeds-link')));
   assert.deepEqual(await rows('#speeds-table tbody'), lines);
-});
-
-test('the slider of flashes moves by its keys, and tells the number', async () => {
-  await open(SOFT.replace('min_gap=0.4', 'min_gap=0'));
-  await page.focus('#flashes');
-  for (const [key, n] of [
-    ['ArrowRight', 13], ['ArrowUp', 14], ['ArrowLeft', 13], ['ArrowDown', 12], ['ArrowLeft', 11], ['End', 256],
-  ]) {
-    await page.press(key);
-    assert.equal(await page.value('#triggers'), String(n), key);
-    assert.equal(await page.attribute('#flashes', 'aria-valuetext'), `${n} flashes`);
-  }
 });
 
 test('what is told goes when its cause goes, and a hand ends no fit', async () => {
