@@ -12,7 +12,7 @@ use shutter_plan::emit::{Form, emit, identifier, module, several};
 use shutter_plan::lamp::Lamp;
 use shutter_plan::plan::{Plan, Trigger};
 
-use crate::refusals::{BOX, MEASURED, TIMES};
+use crate::scenes::{BOX, MEASURED, TIMES};
 use crate::support::{Folder, SCENES, has, keys, number, planned, scenes};
 
 fn text(form: Form, name: &str, plan: &Plan) -> String {

@@ -30,7 +30,7 @@ fn openness(t: f64) -> f64 {
 fn whole(random: &mut Random) -> Vec<u8> {
     let n = 20 + below(random, 30);
     let noise = [0.0, 0.004, 0.03][below(random, 3)];
-    let form = below(random, 11);
+    let form = below(random, 13);
     let mut text = String::from(match form {
         0 => "time_s,v\n",
         1 => "X,CH1,Start,Increment,\nSequence,Volt,0.0e+00,1.0e-05\n",
@@ -38,12 +38,15 @@ fn whole(random: &mut Random) -> Vec<u8> {
         3 => "# a comment\nTIME,CH1,CH2\nms,V,V\n",
         4 | 8 => "",
         5 => "t (µs)\tCH1\n",
-        6 => "Samplerate: 44100 Hz\n",
+        6 | 12 => "Samplerate: 44100 Hz\n",
+        // A few characters of the alphabet of numbers.
+        11 => return (0..12 * n).map(|_| b"0123456789.,;\t \n\n\n-+eE\"NaN#t="[below(random, 29)]).collect(),
         9 => "Sample Interval,1e-04\nCH1,CH2\n",
         10 => "Sample Interval;1e-04\nCH1;CH2\n",
         _ => "Sample,Time [s],Light\n",
     });
     let shots = if form == 0 { 1 + below(random, 3) } else { 1 };
+    let mut level = 0.0;
     for i in 0..n * shots {
         let (k, shot) = (i % n, i / n);
         let v = 0.1 + 2.0 * openness(k as f64 / n as f64) + 2.0 * noise * random.normal();
@@ -56,6 +59,16 @@ fn whole(random: &mut Random) -> Vec<u8> {
             4 => format!("  {t:.6}   {v:.5}\n"),
             5 => format!("{:.2}\t{:.0}\n", t * 1e6, 100.0 * v),
             6 => format!("{v:.4}\n"),
+            // Whatever a signal does.
+            12 => {
+                level = match below(random, 6) {
+                    0 => random.within(-1.0, 1.0),
+                    1 => random.scale(1e-9, 1e9),
+                    2 => 0.0,
+                    _ => level,
+                };
+                format!("{level:e}\n")
+            }
             9 => format!("{:.2},{v:.4},,\n", f64::from(v > 1.0)),
             10 => format!("{v:.4};{v:.4}\n").replace('.', ","),
             8 => format!("\"{t:.6}\",\"{v:.4}\"\n").replace('.', ","),
@@ -120,7 +133,8 @@ fn judged(seed: u64, path: &Path) -> Result<u8, String> {
     let (bytes, asked) = file(seed);
     fs::write(path, bytes).map_err(|e| e.to_string())?;
     let args = ["shutter", "fit"].into_iter().map(OsString::from);
-    let args = args.chain([path.into()]).chain(asked.iter().map(OsString::from));
+    let picture = path.with_extension("svg");
+    let args = args.chain([path.into(), "--picture".into(), picture.into()]).chain(asked.iter().map(OsString::from));
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let clock = Instant::now();
     let ended = catch_unwind(AssertUnwindSafe(|| shutter::command::run(args, &mut out, &mut err)));
@@ -152,6 +166,7 @@ fn broken_files_end_with_0_or_2() {
         let path = folder.path(&format!("{k}.csv"));
         let code = judged(seed + u64::from(k), &path)
             .unwrap_or_else(|wrong| panic!("{:?}: {wrong}; see {}", file(seed + u64::from(k)).1, path.display()));
+        let _ = fs::remove_file(path.with_extension("svg"));
         fs::remove_file(path).expect("it was written");
         code
     });

@@ -7,7 +7,7 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 use serde_json::Value;
 use shutter_plan::scene::Written;
 
-use crate::refusals::{MEASURED, TRAPEZOID, with};
+use crate::scenes::{MEASURED, TRAPEZOID, with};
 use crate::support::{Folder, Run, has, leaf, number};
 
 /// A folder with a scene and a trace of straight ramps.

@@ -3,13 +3,10 @@
 use std::fs;
 use std::io::{self, ErrorKind, Write};
 
-use serde_json::Value;
-use shutter_plan::emit::{Form, emit};
-use shutter_plan::plan::Plan;
 use shutter_plan::scene::Scene;
 
-use crate::refusals::{BOX, MEASURED, TRAPEZOID, tables, with};
-use crate::support::{Folder, SCENES, planned, report, scene, scenes, table};
+use crate::scenes::{TRAPEZOID, tables};
+use crate::support::{Folder, SCENES, has, planned, report, scene, scenes, table};
 
 fn path(scene: &str) -> String {
     format!("{SCENES}/{scene}.toml")
@@ -109,69 +106,6 @@ fn a_long_table_is_shortened_in_the_middle() {
     assert_eq!(rows[12], ["...", "76", "more"]);
 }
 
-/// Ticks of a rate that is rounded, and of times that `f32` moves, are doubted in every form that has room for it.
-#[test]
-fn ticks_that_may_be_others_are_doubted() {
-    let json = |plan: &Plan| emit(Form::Json, "scene", plan, false).unwrap();
-    let moved = "f32 moves the curve's times by up to 58 ticks; they are nearest where open_start is 0";
-    for (start, hz, doubts) in [
-        (0.0003, "100_000_000", vec![]),
-        (10.0003, "100_000", vec![]),
-        (10.0003, "100_000_000", vec![moved]),
-        (0.0, "100_000.4", vec![]),
-    ] {
-        let [a, b, c, d] = [0.0, 0.002, 0.006, 0.008].map(|t| start + t);
-        let curve = format!("open_start = {a}; open_end = {b}; close_start = {c}; close_end = {d}");
-        let frame = format!("triggers = 4; min_gap = 0; set_up = 'emulated'; timer_hz = {hz}");
-        let plan = planned(TRAPEZOID, &format!("{curve}; {frame}"));
-        assert_eq!(
-            serde_json::from_str::<Value>(&json(&plan)).unwrap()["doubts"]
-                .as_array()
-                .unwrap()
-                .iter()
-                .map(|it| &it["text"])
-                .collect::<Vec<_>>(),
-            doubts
-        );
-        let module = emit(Form::Rust, "scene", &plan, false).unwrap();
-        assert_eq!(module.matches("\n// doubt ").count(), doubts.len(), "{module}");
-    }
-    let slow = "open_start = 0\ntrigger_times = [20, 40]\nmin_gap = 0\nset_up = 'emulated'\n";
-    let told = json(&planned(slow, "timer_hz = 1.5"));
-    assert!(told.contains("\"the timer has 1.5 Hz, planned as 2: 20 ticks off at the end\""), "{told}");
-}
-
-/// As docs/firmware.md says: a share of 6.2541 ms / 16 is 9772 ticks; a frame takes 12.958 ms.
-#[test]
-fn the_report_tells_when_a_drift_matters() {
-    for (hz, frames) in [("25000000", 7542), ("1000000", 302)] {
-        let told = report(&planned(MEASURED, &format!("timer_hz = {hz}")));
-        let line = "\ndrift        a tick a second moves the delay by 1 % of a share in ";
-        assert!(told.contains(&format!("{line}{frames} frames\n")), "{told}");
-    }
-    assert!(!report(&scene("soft")).contains("\ndrift"));
-}
-
-#[test]
-fn a_unit_scales_all_times() {
-    let curve = "duty = 0.5; set_up = 'in_path'; triggers = 7; timer_hz = 1000";
-    let csv = |plan: &Plan| emit(Form::Csv, "x", plan, false).unwrap();
-    let plain = planned(TRAPEZOID, &format!("min_gap = 0.05; nominal = 0.5; min_pulse = 0.01; {curve}"));
-    for (unit, factor) in [("ms", 1e3), ("µs", 1e6), ("μs", 1e6), ("us", 1e6), ("ns", 1e9), ("s", 1.0)] {
-        let times = [
-            ("open_end", 0.25),
-            ("close_start", 0.75),
-            ("close_end", 1.0),
-            ("min_gap", 0.05),
-            ("nominal", 0.5),
-            ("min_pulse", 0.01),
-        ];
-        let times = times.map(|(key, time)| format!("{key} = {}; ", time * factor)).concat();
-        let scaled = planned(TRAPEZOID, &format!("unit = \"{unit}\"; {times}{curve}"));
-        assert_eq!(csv(&scaled), csv(&plain), "{unit}");
-        assert!(report(&scaled).contains("ΔEV +0.58"), "{}", report(&scaled));
-    }
-}
 /// Decimals in or at the end of the box, some of them rounded to seven digits, on any scale and up to a hundred
 /// intervals from time 0: neither the unit's conversion nor `f32` carries one out of it.
 #[test]
@@ -214,55 +148,12 @@ fn what_lies_in_the_box_lies_in_it_in_every_unit() {
     }
 }
 
-/// Everything that is asked of a delay: it is printed, counted from, drawn, and checked.
+/// An edge far before the curve would squeeze it: it is told, not drawn to scale.
 #[test]
-fn a_delay_is_counted_from_the_edge_of_the_sync() {
-    for (unit, factor) in [("s", 1.0), ("ms", 1e3)] {
-        let [open, close, end, delay] = [0.25, 0.75, 1.0, 0.125].map(|time| time * factor);
-        let times = format!("open_end = {open}; close_start = {close}; close_end = {end}; delay = {delay}");
-        let changes = format!("unit = \"{unit}\"; {times}; triggers = 3; min_gap = 0; sync_falls = true");
-        let plan = planned(TRAPEZOID, &changes);
-        let out = report(&plan);
-        let fact = format!("delay        {delay} {unit} from the sync's falling edge to the start of opening\n");
-        assert!(out.contains(&fact) && out.lines().all(|line| line.chars().count() <= 80), "{out}");
-        // The third column counts from the opening, the fourth from the edge.
-        let rows = table(&out);
-        let columns = |i: usize| rows.iter().map(move |row| row[i].parse::<u32>().unwrap());
-        assert!(columns(3).eq([250, 500, 750]) && columns(4).eq([375, 625, 875]), "{out}");
-        let svg = shutter::picture::svg("late", &plan).unwrap();
-        assert!(svg.contains("\nsync\n") || svg.contains(">sync<"), "the edge is drawn");
-        assert!(svg.contains(&format!("delay {delay} {unit}")), "and the delay");
-    }
-    // An edge far before the curve would squeeze it: it is told, not drawn to scale.
-    let svg = shutter::picture::svg("late", &planned(TRAPEZOID, "min_gap = 0; delay = 100")).unwrap();
-    assert!(svg.contains("sync 100 s before"));
-    let out = report(&planned(TRAPEZOID, ""));
-    let none = "delay        none known: ticks count from the start of opening";
-    assert!(out.contains(none) && !out.contains("from edge"), "{out}");
-    // The trace's edge is not that of another delay.
-    let own = "delay = 1; sync_falls = true; [flashes] -> [flashes]\ndelay = 2";
-    assert!(report(&planned(TRAPEZOID, own)).contains("2 s from the sync's edge (sync_falls: which?) to"));
-    // The longest that fits, and one as good as none, of whose zero no sign is kept.
-    let delay = |delay| Plan::parse(&with(TRAPEZOID, delay)).unwrap().sync;
-    assert_eq!(delay("delay = 2147482.648").ticks + 1000, 1 << 31);
-    let none = delay("delay = -0.0");
-    assert!(none.ticks == 0 && none.delay.unwrap().seconds.is_sign_positive());
-}
-
-#[test]
-fn pulses_come_around_the_triggers_or_take_equal_shares() {
-    for (lamp, pulses) in [
-        ("min_gap = 0.15; pulse = 0.1", &[[75, 175], [325, 425], [575, 675], [825, 925]][..]),
-        ("min_gap = 0.15; duty = 0.4", &[[75, 175], [325, 425], [575, 675], [825, 925]]),
-        // They touch where the lamp is always on, and a pulse of a whole share fits as well.
-        ("min_gap = 0; pulse = 0.25", &[[0, 250], [250, 500], [500, 750], [750, 1000]]),
-        ("min_gap = 0; duty = 1", &[[0, 250], [250, 500], [500, 750], [750, 1000]]),
-        // Half a tick of an odd length comes after the trigger.
-        ("triggers = 1; pulse = 0.003", &[[499, 502]]),
-    ] {
-        let out = report(&planned(BOX, lamp));
-        let edges = |row: Vec<&str>| [4, 5].map(|i| row[i].parse::<u32>().unwrap());
-        assert_eq!(table(&out).into_iter().map(edges).collect::<Vec<_>>(), pulses, "{lamp}");
+fn a_delay_is_drawn_or_told() {
+    for (delay, told) in [("0.125", ["\nsync\n", "delay 0.125 s"]), ("100", ["sync 100 s before"; 2])] {
+        let plan = planned(TRAPEZOID, &format!("min_gap = 0; delay = {delay}"));
+        has(&shutter::picture::svg("late", &plan).unwrap(), &told, &[]);
     }
 }
 

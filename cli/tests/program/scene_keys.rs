@@ -56,11 +56,17 @@ fn a_time_is_in_the_unit_of_its_table() {
     for flashes in
         ["lamp_lag = 0.2%\nduty = 0.5\nmin_pulse = 0.01%\n", "pulse = 0.3%\ndelay = 3%\ndelay_spread = 0.2%\n"]
     {
-        let scene = |[ours, theirs]: [&str; 2], digits: [&str; 2]| {
+        let played = |[ours, theirs]: [(&str, &str); 2]| {
             let common = "triggers = 4\ntimer_hz = 1e6\nmin_gap = 0.1%\n";
-            let text = format!("[shutter]\nunit = '{ours}'\n{shutter}[flashes]\nunit = '{theirs}'\n{common}{flashes}");
-            Plan::parse(&text.replace('@', digits[0]).replace('%', digits[1])).unwrap().scene
+            let [own, other] = [("shutter", ours, shutter), ("flashes", theirs, flashes)]
+                .map(|(table, (unit, _), keys)| format!("[{table}]\nunit = '{unit}'\n{keys}"));
+            let plan =
+                Plan::parse(&format!("{own}{other}{common}").replace('@', ours.1).replace('%', theirs.1)).unwrap();
+            (serde_json::to_string(&plan.rows()).unwrap(), plan.scene)
         };
-        assert_eq!(scene(["ms", "us"], ["", "e3"]), scene(["s", "s"], ["e-3", "e-3"]));
+        let all = [("ms", ""), ("µs", "e3"), ("μs", "e3"), ("us", "e3"), ("ns", "e6"), ("s", "e-3")];
+        for [ours, theirs] in all.iter().flat_map(|ours| all.map(|theirs| [*ours, theirs])) {
+            assert_eq!(played([ours, theirs]), played([all[0]; 2]), "{ours:?} {theirs:?}");
+        }
     }
 }

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::refusals::{BOX, MEASURED, TIMES, TRAPEZOID, with};
+use crate::scenes::{BOX, MEASURED, TIMES, TRAPEZOID, with};
 use crate::support::{Folder, SCENES, leaf, rows, sampled, trapezoid};
 use crate::sync;
 

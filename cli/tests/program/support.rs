@@ -9,7 +9,7 @@ use shutter_fit::trace::Trace;
 use shutter_plan::plan::Plan;
 
 use crate::generator::Random;
-use crate::refusals::with;
+use crate::scenes::with;
 
 /// The scenes that ship.
 pub const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");

@@ -4,7 +4,7 @@
 use serde_json::Value;
 use shutter_plan::plan::Plan;
 
-use crate::refusals::{TIMES, TRAPEZOID, tables, with};
+use crate::scenes::{TIMES, TRAPEZOID, tables, with};
 use crate::support::{Folder, number, rows, sampled};
 
 /// Blades that bounce: between two dips they are open.
