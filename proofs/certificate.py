@@ -3,7 +3,7 @@
 Taken as known: on [-1, 1] a polynomial of degree n < N is at most 1 / cos(n pi / 2N) times its greatest value at the
 points cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
 
-Of all of octave/bound.rs and certificate.rs, `Path::stretch`, `Span::new` and `Exposure::join_fractions`.
+Of all of octave/bound.rs and certificate.rs, `Path::stretch`, `Span::new` and `Curve::join_fractions`.
 """
 
 import math
@@ -14,7 +14,7 @@ from z3 import *
 from common import *
 
 DEGREE, POINTS = constant("DEGREE"), constant("POINTS")
-ONE, COSINE = int(constant("bound::ONE")), constant("COSINE")
+ONE, COSINE = int(constant("S_ONE")), constant("COSINE")
 single = lambda text: Fraction(struct.unpack("f", struct.pack("f", float(text)))[0])
 FACTOR = {1: single(text_of("FACTOR_OF_ALL")), 2: single(text_of("FACTOR_OF_HALF"))}
 # --- Cosines, by `libm` to 2^-50, where 2^-40 would do.

@@ -1,6 +1,6 @@
 """What the rules of src/domain.rs leave: how fast time passes on a ramp, its least area, and how great numbers are.
 
-Of `domain::check`, `Exposure::new`, `Ramp::new` and `Shape::exposure`.
+Of `domain::check`, `Curve::new`, `Ramp::new` and `Shape::exposure`.
 """
 
 from box import *
@@ -32,7 +32,7 @@ proven("a ramp has at least 1/20 of the exposure that its length would have at i
        min(sum(ramp.m) for ramp in times_only) == LEAST_AREA and all(sum(ramp.m) >= LEAST_AREA for ramp in ramps))
 
 # Rules 4 to 6, for a greatest |time| of 1. A time counts at most 2^62 units and a greatest one at least 2^61.
-interval, section, density = constant("LEAST_INTERVAL"), constant("LEAST_SECTION"), constant("LEAST_EXPOSURE")
+interval, section, density = constant("LEAST_INTERVAL"), constant("LEAST_PART"), constant("LEAST_EXPOSURE")
 share = LEAST_AREA * section / 2
 proven(f"the share of a ramp or a plateau is 0 or at least 2^{log2(share):.2f}, so 2^-30: the exposure is at most "
        "twice the greatest |time|",

@@ -1,7 +1,7 @@
 """That the look-up and the offset lead to the `x` at which a polynomial was judged; and what Horner's rule in integers
 truncates.
 
-Of `Inverse::look_up` and `section`, `Octave::offset` and `polynomial`, `times_high_by_halves`, `Span::new` and
+Of `Inverse::look_up` and `section`, `Octave::offset` and `polynomial`, `product_high_by_halves`, `Span::new` and
 `center`, `top_beyond`, `candidate`.
 """
 
@@ -120,6 +120,6 @@ middle = first + low / 2**16
 other = second + middle % 2**16
 word = lambda x: And(x >= -(2**31), x < 2**31)
 upper = (high * 2**32 + (first + second) * 2**16 + low) / 2**32
-valid("times_high_by_halves: the upper word of the product, with no sum beyond a word",
+valid("product_high_by_halves: the upper word of the product, with no sum beyond a word",
       Implies(products, And(high + middle / 2**16 + other / 2**16 == upper, word(middle), word(other))),
       Implies(products, other < 2**31 - 2**17))

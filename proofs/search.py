@@ -1,8 +1,8 @@
 """A fraction, a mass, a place and a time in fixed point: what products and series lose, that a search ends, and that
 what it finds is in order and near enough.
 
-Of `fixed::times` and `times_up`, `Series::at` and `solve`, `guess`, `Ramp::time_of_part`, `place_of_time` and
-`way_powers`, `Exposure::time_units` and `cdf::cdf`.
+Of `fixed::product` and `product_up`, `Series::at` and `solve`, `guess`, `Ramp::time_of_mass`, `place_of_time` and
+`way_powers`, `Curve::time_units` and `cdf::cdf`.
 """
 
 from itertools import product
@@ -19,22 +19,22 @@ most = WORD - 1
 signed = lambda p: And(p >= -(2**31) * most, p <= (2**31 - 1) * most)
 words = And(signed(hh), signed(hl), lh >= 0, lh <= most**2, ll >= 0, ll <= most**2)
 exact = hh * WORD**2 + (hl + lh) * WORD + ll
-times = hh + hl / WORD + lh / WORD
-is_low = lambda by: Implies(words, And(exact - times * WORD**2 >= 0, exact - times * WORD**2 < by * WORD**2 / 100))
-valid("times: a x / 2^64, low by less than 3", is_low(300), is_low(299))
+in_words = hh + hl / WORD + lh / WORD
+is_low = lambda by: Implies(words, And(exact - in_words * WORD**2 >= 0, exact - in_words * WORD**2 < by * WORD**2 / 100))
+valid("product: a x / 2^64, low by less than 3", is_low(300), is_low(299))
 lower = hl + ll / WORD
 middle = lh + lower % WORD
 fraction = (hh + lower / WORD + middle / WORD) * WORD + middle % WORD
 fits = And(middle < WORD**2, lower < 2**63, lower >= -(2**63))
-valid("times_up: a x rounded down to 32 bits after the point, with no sum beyond its word: so down to each bit before",
+valid("product_up: a x rounded down to 32 bits after the point, with no sum beyond its word: so down to each bit before",
       Implies(words, And(fraction == exact / WORD, fits)), Implies(words, middle < WORD**2 - WORD))
 # In `a`, across a change of its upper word: floor(high x / 2^32) gains x_high or more, floor(low x_high / 2^32) loses
 # no more. Else, and in `x`, both only grow.
 of_high, of_low = (high_x + x_high * WORD + x_low) / WORD - high_x / WORD, lh / WORD
 grows = lambda most: Implies(And(x_low >= 0, x_high >= 0, lh >= 0, lh <= most * x_high), of_high >= of_low)
-valid("times: for an `a` from 0 on it never falls as `a` grows", grows(WORD - 1), grows(2 * WORD))
+valid("product: for an `a` from 0 on it never falls as `a` grows", grows(WORD - 1), grows(2 * WORD))
 
-# --- A series of n coefficients by Horner's rule: n - 1 products by `times`, each less than 3 units of 2^shift low and
+# --- A series of n coefficients by Horner's rule: n - 1 products by `product`, each less than 3 units of 2^shift low and
 # then multiplied by the place, which is below 1, once for each product that follows; the last is rounded down.
 loses = lambda n, shift, p: 2**shift * 3 * sum(p**k for k in range(1, n)) + 1
 MASS_SHIFT, WAY_SHIFT = constant("MASS_SHIFT"), constant("WAY_SHIFT")
@@ -117,7 +117,7 @@ way, rest = Reals("way rest")
 inside = lambda way: If(ToInt(way) < 0, 0, If(ToInt(way) < end - start, ToInt(way), end - start))
 in_order = lambda gap: Implies(And(start <= end, way + rest <= end - start + gap),
                                start + inside(way) <= end - inside(rest))
-valid("time_of_part: a time from a ramp's start is not after one from its end, if the ways, measured low, are in "
+valid("time_of_mass: a time from a ramp's start is not after one from its end, if the ways, measured low, are in "
       "order; neither is beyond an end",
       in_order(0), in_order(1))
 polynomial, found, exact, x = *Ints("polynomial found"), *Reals("exact x")

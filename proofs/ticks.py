@@ -46,7 +46,7 @@ valid("a trigger's fraction is within half an ulp; a pulse's end within one and 
 # (search.py). A polynomial collects its fraction but for ULP_ERROR. The line begins behind the near ramp, and above
 # LINE_FROM; its joins are off by JOIN_OFF and FRACTION_OFF, itself by 2^-6 ulp of LINE_FROM (domain.py).
 SHORTEST, LONGEST = int(61 + log2(constant("LEAST_INTERVAL"))), 62
-UNITS, RAMP = 2**SHORTEST * LEAST_AREA, 2**60 * constant("LEAST_SECTION")
+UNITS, RAMP = 2**SHORTEST * LEAST_AREA, 2**60 * constant("LEAST_PART")
 by_polynomial = constant("LEAST_TOP") / 2 * (1 - constant("ULP_ERROR") / 2**23) * UNITS - 1
 line_off = (constant("LINE_FROM") / 2**23 / 2**6 + constant("JOIN_OFF")) * 2**62
 by_line = constant("LINE_FROM") * (1 - Fraction(1, 2**29)) * UNITS

@@ -1,5 +1,5 @@
 //! What is accepted: the rules of [`ShutterCurve`](crate::ShutterCurve)'s list, compared in `f64`; the last one in
-//! [`exposure`](crate::exposure).
+//! [`curve`](crate::curve).
 //!
 //! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: on a ramp of length 1,
 //! with the Bezier's parameter `p`, `t'` is at least `3 p²` up to `p = 1/8`, mirrored at the end, and at least 1/22
@@ -15,7 +15,7 @@ pub(crate) const MOST_CROSSED: f64 = 15.0 / 16.0;
 /// The least interval, as a share of the greatest |time|: 128 `f32` and more.
 pub(crate) const LEAST_INTERVAL: f64 = 1.0 / (1 << 16) as f64;
 /// The least length of a ramp or a plateau, as a share of the greatest |time|: half an ulp of that to an ulp.
-pub(crate) const LEAST_SECTION: f64 = 1.0 / (1 << 24) as f64;
+pub(crate) const LEAST_PART: f64 = 1.0 / (1 << 24) as f64;
 /// The least exposure of a density, as a share of the interval.
 pub(crate) const LEAST_EXPOSURE: f64 = 1.0 / (1 << 20) as f64;
 
@@ -37,10 +37,10 @@ pub(crate) const fn check(opening: &CubicBezier, closing: &CubicBezier) -> Resul
     if length < 1.0 / DOUBLE_WORD || length > DOUBLE_WORD {
         return Err(CurveError::IntervalOutOfRange);
     }
-    let least = LEAST_SECTION * greatest;
-    tried!(check_section(start, open, least, Part::Opening));
-    tried!(check_section(open, close, least, Part::Plateau));
-    tried!(check_section(close, end, least, Part::Closing));
+    let least = LEAST_PART * greatest;
+    tried!(check_part(start, open, least, Part::Opening));
+    tried!(check_part(open, close, least, Part::Plateau));
+    tried!(check_part(close, end, least, Part::Closing));
     tried!(check_points(opening, Part::Opening));
     tried!(check_points(closing, Part::Closing));
     // A ramp that is the whole curve does not meet another part, and the openness of one without length does not count.
@@ -66,7 +66,7 @@ const fn check_finite(ramp: &CubicBezier, part: Part) -> Result<(), CurveError> 
     Ok(())
 }
 
-const fn check_section(from: f32, to: f32, least: f64, part: Part) -> Result<(), CurveError> {
+const fn check_part(from: f32, to: f32, least: f64, part: Part) -> Result<(), CurveError> {
     let length = to as f64 - from as f64;
     if length > 0.0 && length < least { Err(CurveError::TooShort(part)) } else { Ok(()) }
 }

@@ -18,12 +18,6 @@ pub enum Part {
     Closing,
 }
 
-impl fmt::Display for Part {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(self.name())
-    }
-}
-
 /// Why a curve is refused: the [rule](crate::ShutterCurve#rules) that it breaks. A `point` is the index of a control
 /// point, from 0 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

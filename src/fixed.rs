@@ -1,11 +1,14 @@
-//! Fixed point: the units in which all is counted, as 64-bit integers, and the product of two of them.
+//! Fixed point: what is counted as 64-bit integers, in which units, and the product of two of them.
 //!
-//! | counted | from 0 at | to |
-//! |---|---|---|
-//! | a fraction of the exposure, a mass | an end of the curve or of a ramp | [`ONE`], 2⁶², the whole exposure |
-//! | a time, *in units* | time 0 | below ±2⁶² at the curve's greatest time ([`Units`]) |
-//! | a way, the time since an end, *in fine units* | an end of the curve or of a ramp | 2⁶¹ to 2⁶², an interval |
-//! | a place along a ramp, unsigned | one of its ends | 2⁶⁴ at the other |
+//! | word | meaning | counted from | type, unit |
+//! |---|---|---|---|
+//! | *mass* | light, as a share of the whole exposure | an end of the curve or of a ramp | `i64`, 2⁻⁶² ([`ONE`] is the whole) |
+//! | *time* | as the user gave it | time 0 | `i64`, *units*: the greatest has 2⁶¹ to 2⁶² ([`Units`]) |
+//! | *way* | the time since an end | an end of the curve or of a ramp | `i64`, *fine units*: the interval has 2⁶¹ to 2⁶² |
+//! | *place* | the parameter `p` of a ramp's Bezier | an end of the ramp | `u64`, 2⁻⁶⁴ |
+//! | openness | | | `i64`, 2⁻⁶⁰ |
+//!
+//! A *fraction* is an `f32` ([`fraction`](crate::fraction)): `u` from the curve's start, or `a` from its nearer end.
 
 /// The whole exposure.
 pub(crate) const ONE: i64 = 1 << 62;
@@ -17,7 +20,8 @@ pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 /// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`inverse`](crate::inverse)).
 pub(crate) const LINE_FROM: f32 = 1.0 / 512.0;
 
-/// The bits of 2⁻²², the least top of an octave. A frame's fractions are at least 2⁻²³ from either end of the curve.
+/// The bits of 2⁻²², the least top of an octave, which holds what is above 2⁻²³. A frame's fractions are at least 2⁻²³
+/// from either end of the curve; 2⁻²³ itself, which only the largest frame has, is searched for.
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 22) as f32).to_bits();
 /// The bits of tops are multiples of this, an eighth of a power of two.
 pub(crate) const EIGHTH: u32 = 1 << 20;
@@ -25,15 +29,26 @@ pub(crate) const EIGHTH: u32 = 1 << 20;
 /// `a x / 2⁶⁴`, low by less than 3: of four products two are rounded down, and the lowest is left out. For an `a` of
 /// at least 0 it never falls as `a` or `x` grows.
 #[inline(always)]
-pub(crate) const fn times(a: i64, x: u64) -> i64 {
+pub(crate) const fn product(a: i64, x: u64) -> i64 {
     let (high, low) = (a >> 32, a as u64 & 0xFFFF_FFFF);
     let (x_high, x_low) = (x >> 32, x & 0xFFFF_FFFF);
     high * x_high as i64 + ((high * x_low as i64) >> 32) + ((low * x_high) >> 32) as i64
 }
 
+/// `x`, or the nearer of 0 and `most`, where rounding has led beyond them.
+pub(crate) const fn clamped(x: i64, most: i64) -> i64 {
+    if x > most {
+        most
+    } else if x > 0 {
+        x
+    } else {
+        0
+    }
+}
+
 /// `a x / 2^(64 - shift)`, rounded down, for a `shift` of up to 31.
 #[inline(always)]
-pub(crate) const fn times_up(a: i64, x: u64, shift: u32) -> i64 {
+pub(crate) const fn product_up(a: i64, x: u64, shift: u32) -> i64 {
     let (high, low) = (a >> 32, a as u64 & 0xFFFF_FFFF);
     let (x_high, x_low) = (x >> 32, x & 0xFFFF_FFFF);
     let lower = high * x_low as i64 + ((low * x_low) >> 32) as i64;
@@ -65,7 +80,6 @@ impl Units {
     }
 
     /// A unit is the time `2^exponent`.
-    #[inline(always)]
     pub(crate) const fn exponent(self) -> i32 {
         exponent(self.word) - 32
     }
@@ -78,13 +92,11 @@ impl Units {
     }
 
     /// From units to fine units.
-    #[inline(always)]
     pub(crate) const fn refined(self, units: i64) -> i64 {
         units << (self.fine & 31)
     }
 
     /// From fine units to units, rounded down.
-    #[inline(always)]
     pub(crate) const fn coarsened(self, way: i64) -> i64 {
         way >> (self.fine & 31)
     }
@@ -137,7 +149,6 @@ pub(crate) const fn floor_bits(x: f64) -> u32 {
 
 /// `x` in single precision, for a step: within an ulp and a half; or 2⁸ if that is more, as next below 0, where its
 /// words cancel. By words, as an FPU converts those.
-#[inline(always)]
 pub(crate) const fn single(x: i64) -> f32 {
     (x >> 32) as i32 as f32 * WORD + x as u32 as f32
 }

@@ -16,27 +16,25 @@ impl Side {
     #[cfg(test)]
     pub(crate) const BOTH: [Self; 2] = [Start, End];
 
-    #[inline(always)]
     pub(crate) const fn end_if(is_end: bool) -> Self {
         if is_end { End } else { Start }
     }
 
-    #[inline(always)]
     pub(crate) const fn is_end(self) -> bool {
         matches!(self, End)
     }
 
-    #[inline(always)]
     pub(crate) const fn is(self, other: Self) -> bool {
         self as u8 == other as u8
     }
 
-    #[inline(always)]
     pub(crate) const fn other(self) -> Self {
-        match self {
-            Start => End,
-            End => Start,
-        }
+        Self::end_if(!self.is_end())
+    }
+
+    /// The time at the end of a way from a `time` into the curve, both in units.
+    pub(crate) const fn inwards(self, time: i64, way: i64) -> i64 {
+        if self.is_end() { time - way } else { time + way }
     }
 }
 
@@ -72,7 +70,6 @@ impl Fraction {
         }
     }
 
-    #[inline(always)]
     pub(crate) const fn get(self) -> f32 {
         f32::from_bits(self.bits)
     }

@@ -5,8 +5,8 @@
 //! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`. Go to 10.
 //! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
-//! 4. Else a search begins: `a` becomes an integer ([`fixed`](crate::fixed)).
-//! 5. The part of the curve where `a` is collected ([`exposure`](crate::exposure)): the plateau, below 1/512, gives the
+//! 4. Else a search begins: `a` becomes a mass, an integer ([`fixed`](crate::fixed)).
+//! 5. The part of the curve where this mass is reached ([`curve`](crate::curve)): the plateau, below 1/512, gives the
 //!    time at once. Go to 10.
 //! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
 //! 7. The search starts from the end of the ramp from which less mass is missing.
@@ -20,8 +20,8 @@
 //! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
 //! 1, too: there the line begins 1/512 from either end.
 
+use crate::curve::Curve;
 use crate::error::{CurveError, tried};
-use crate::exposure::Exposure;
 use crate::fixed::{EIGHTH, LINE_FROM, floor_bits, rounded, rounded_near_0, upper_word};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
@@ -31,7 +31,7 @@ use crate::ramp::bezier::CubicBezier;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
-    pub(crate) exposure: Exposure,
+    pub(crate) curve: Curve,
     /// By side, `[count, last]`: so many `f32` are on the plateau's line, down from the one with the bits `last`. That
     /// is the last below 1 at or before the far ramp's join.
     line_bits: [[u32; 2]; 2],
@@ -55,10 +55,10 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
         // At most 64: so a fraction of 0 finds no octave, as its index is a top's exponent, 105 or more (`LEAST_TOP`).
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
-        let exposure = tried!(Exposure::new(opening, closing));
-        let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
+        let curve = tried!(Curve::new(opening, closing));
+        let [from_start, from_end] = [curve.join_fractions(Start), curve.join_fractions(End)];
         let mut this = Self {
-            exposure,
+            curve,
             line_bits: [line_bits(from_start), line_bits(from_end)],
             tops: [[0; 2]; 2],
             octaves: [[Octave::NONE; OCTAVES]; 2],
@@ -66,7 +66,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         // Where there are none, the code that builds octaves is left out.
         if OCTAVES > 0 {
             let (ramps, [start, end]) = ([*opening, *closing], &mut this.octaves);
-            this.tops = [build(&exposure, &ramps, Start, start), build(&exposure, &ramps, End, end)];
+            this.tops = [build(&curve, &ramps, Start, start), build(&curve, &ramps, End, end)];
         }
         Ok(this)
     }
@@ -79,13 +79,13 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // The line counts `u` from the start, up to its last `f32`: so it is tried before the nearer end is known.
         let ramp = match self.section(Start, u.to_bits()) {
-            Section::Line(time) => return rounded(time, self.exposure.units.word),
+            Section::Line(time) => return rounded(time, self.curve.units.word),
             Section::Ramp(ramp) => ramp,
         };
         let (time, scale) = match self.by_octave(Fraction::new(u), ramp) {
             Some(time) => match upper_word(time) {
-                Some(high) => (high as f32, self.exposure.units.word),
-                None => (rounded_near_0(time, self.exposure.units.word), 1.0),
+                Some(high) => (high as f32, self.curve.units.word),
+                None => (rounded_near_0(time, self.curve.units.word), 1.0),
             },
             None => (f32::from_bits(self.searched_bits(u)), 1.0),
         };
@@ -116,7 +116,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) fn evaluations(&self, u: f32) -> Option<u32> {
         let (fraction, section) = (Fraction::new(u), self.section(Start, u.to_bits()));
         let is_searched = matches!(section, Section::Ramp(ramp) if self.by_octave(fraction, ramp).is_none());
-        is_searched.then(|| self.exposure.time_units(fraction).1)
+        is_searched.then(|| self.curve.time_units(fraction).1)
     }
 
     /// The section of a fraction from a side, which has these bits.
@@ -139,9 +139,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[inline(always)]
     const fn on_line(&self, u: u32) -> i64 {
         // `fixed::times` with what is known here: the slope is not negative, and there is no lower word.
-        let slope = self.exposure.line_slope as u64;
+        let slope = self.curve.line_slope as u64;
         let way = (slope >> 32) * u as u64 + (((slope & 0xFFFF_FFFF) * u as u64) >> 32);
-        self.exposure.line_base.wrapping_add(way as i64)
+        self.curve.line_base.wrapping_add(way as i64)
     }
 
     /// The time by a polynomial of a ramp, in units.
@@ -182,7 +182,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[cold]
     #[inline(never)]
     const fn searched_units(&self, fraction: Fraction) -> i64 {
-        self.exposure.time_units(fraction).0
+        self.curve.time_units(fraction).0
     }
 
     /// The time of `u` by a search. Out of line, and with `u` itself: keeping its fraction until here would cost each
@@ -192,12 +192,12 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[inline(never)]
     fn searched_bits(&self, u: f32) -> u32 {
         let (side, a) = if u > 0.5 { (End, 1.0 - u) } else { (Start, u) };
-        let end = self.exposure.end_time(side);
+        let end = self.curve.end_time(side);
         if a > 0.0 {
-            let (time, _) = self.exposure.time_units(Fraction { side, bits: a.to_bits() });
-            let time = rounded(time, self.exposure.units.word);
+            let (time, _) = self.curve.time_units(Fraction { side, bits: a.to_bits() });
+            let time = rounded(time, self.curve.units.word);
             // In units the start is rounded down.
-            let start = self.exposure.end_time(Start);
+            let start = self.curve.end_time(Start);
             (if time > start { time } else { start }).to_bits()
         } else {
             end.to_bits()

@@ -100,15 +100,16 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` begins from a time, and
-// `trigger/ticks.rs` makes ticks of times. Each of these needs only those before it, and `error`, `text`, `rate`:
+// Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` those from a time, and
+// `trigger/ticks.rs` those to a tick. `fixed.rs` says what a mass, a way and a place are, and in which units. Each of
+// these needs only those before it, and `error`, `text`, `rate`:
 //
 // fixed     masses, times and places as whole numbers
 // fraction  an end of the curve, and a fraction counted from it
 // search    where a polynomial reaches a target, and the proof that it does
 // ramp      one Bezier: its mass and time from either end, when a mass has been collected
 // domain    which curves are accepted
-// exposure  two ramps and the plateau, by fraction
+// curve     two ramps and the plateau, integrated: the time of a fraction by a search
 // octave    polynomials that answer without a search: how they are built, and their certificates
 // inverse   the time of a fraction
 // cdf       the fraction, the openness and the density at a time
@@ -121,9 +122,9 @@
 // Some masks (`i & 31`), branches that are never taken, and `wrapping_` operations that never wrap only show the
 // compiler that a value is in range, so that no panic links.
 mod cdf;
+mod curve;
 mod domain;
 mod error;
-mod exposure;
 mod fixed;
 mod fraction;
 mod inverse;

@@ -4,7 +4,7 @@
 //! precision. Once a step is short, what is missing is measured in fixed point: within the error, the search ends. From
 //! [`FREE_STEPS`] on it halves a bracket instead. So it always ends (proofs/search.py).
 
-use crate::fixed::{WORD, power_of_two, single, times, times_up};
+use crate::fixed::{WORD, power_of_two, product, product_up, single};
 
 /// After so many steps each further one halves a bracket. Few searches take as many.
 const FREE_STEPS: u32 = 16;
@@ -31,10 +31,10 @@ impl<const N: usize> Series<'_, N> {
         let (mut sum, mut k) = (self.c[N - 1], N - 1);
         while k > 0 {
             k -= 1;
-            sum = times(sum, p) + self.c[k];
+            sum = product(sum, p) + self.c[k];
         }
         // The last product keeps its bits.
-        times_up(sum, p, self.shift)
+        product_up(sum, p, self.shift)
     }
 
     /// The place where the series, which grows from 0, reaches a target, within an error; and, for tests, the
@@ -53,13 +53,14 @@ impl<const N: usize> Series<'_, N> {
         let unit = power_of_two(-(self.shift as i32));
         let sought = single(target) * unit;
         let guess = guess(&c, sought);
-        // Not to the other end, where the slope may be 0. A later step may lead there, and the next one back.
+        // Not to the other end, where the slope may be 0: any place well before it will do. A later step may lead there,
+        // and the next one back.
         let mut p = place(if guess < 0.75 { guess } else { 0.75 });
         let (mut low, mut high, mut evaluations) = (0, u64::MAX, 0);
         let (mut missing, mut is_far) = (0.0, true);
         loop {
             evaluations += 1;
-            let x = single_place(p);
+            let x = ((p >> 32) as u32 as f32 + p as u32 as f32 / WORD) / WORD;
             if is_far {
                 missing = sought - value(&c, x);
             }
@@ -98,11 +99,6 @@ const fn place(x: f32) -> u64 {
 }
 
 #[inline(always)]
-const fn single_place(p: u64) -> f32 {
-    ((p >> 32) as u32 as f32 + p as u32 as f32 / WORD) / WORD
-}
-
-#[inline(always)]
 const fn value<const N: usize>(c: &[f32; N], x: f32) -> f32 {
     let (mut value, mut k) = (0.0, N);
     while k > 0 {
@@ -131,7 +127,8 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
     if bend > 0.5 { newton / (1.0 + bend) } else { newton * (1.0 - bend * (1.0 - bend)) }
 }
 
-// The first guess: an increasing `Σ c_k x^k` reaches `sought` near the least `(sought / c_k)^(1/k)` of positive `c_k`.
+// The first guess: an increasing `Σ c_k x^k` reaches `sought` near the least `(sought / c_k)^(1/k)` of positive `c_k`,
+// which is `c[k - 1]`.
 // An `f32`'s bits, as an integer, are nearly its logarithm: so a root is a quotient of integers, good to a tenth.
 // Where a term outweighs the others, so is the guess, and one step of Halley's makes that a thousandth.
 

@@ -164,25 +164,25 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The time at which the shutter starts to open.
     #[must_use]
     pub const fn open_start(&self) -> f32 {
-        self.inverse.exposure.end_time(Side::Start)
+        self.inverse.curve.end_time(Side::Start)
     }
 
     /// The time at which the shutter is fully open.
     #[must_use]
     pub const fn open_end(&self) -> f32 {
-        self.inverse.exposure.join_time(Side::Start)
+        self.inverse.curve.join_time(Side::Start)
     }
 
     /// The time at which the shutter starts to close.
     #[must_use]
     pub const fn close_start(&self) -> f32 {
-        self.inverse.exposure.join_time(Side::End)
+        self.inverse.curve.join_time(Side::End)
     }
 
     /// The time at which the shutter is closed.
     #[must_use]
     pub const fn close_end(&self) -> f32 {
-        self.inverse.exposure.end_time(Side::End)
+        self.inverse.curve.end_time(Side::End)
     }
 
     const fn times(&self) -> [f32; 4] {
@@ -203,21 +203,21 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub fn openness(&self, t: f32) -> f32 {
-        cdf::openness(&self.inverse.exposure, t)
+        cdf::openness(&self.inverse.curve, t)
     }
 
     /// The probability density at the time `t`: the openness divided by the [`exposure`](Self::exposure). It is the
     /// fraction of the exposure that is collected per unit of time.
     #[must_use]
     pub fn pdf(&self, t: f32) -> f32 {
-        cdf::pdf(&self.inverse.exposure, t)
+        cdf::pdf(&self.inverse.curve, t)
     }
 
     /// The fraction of the exposure that is collected by the time `t`. It is 0 before the shutter opens and for NaN,
     /// and 1 after the shutter has closed.
     #[must_use]
     pub fn cdf(&self, t: f32) -> f32 {
-        cdf::cdf(&self.inverse.exposure, t)
+        cdf::cdf(&self.inverse.curve, t)
     }
 
     /// The time by which the fraction `u` of the exposure is collected.
@@ -240,20 +240,20 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn exposure(&self) -> f32 {
-        (1.0 / self.inverse.exposure.per_area) as f32
+        (1.0 / self.inverse.curve.per_area) as f32
     }
 
     /// The factor that turns openness into a probability density: 1 divided by the [`exposure`](Self::exposure).
     #[must_use]
     pub const fn normalization(&self) -> f32 {
-        self.inverse.exposure.per_area as f32
+        self.inverse.curve.per_area as f32
     }
 
     /// The shutter's efficiency, at most 1: the [`exposure`](Self::exposure) divided by the time from `open_start` to
     /// `close_end`.
     #[must_use]
     pub const fn efficiency(&self) -> f32 {
-        (1.0 / (self.inverse.exposure.per_area * (self.close_end() as f64 - self.open_start() as f64))) as f32
+        (1.0 / (self.inverse.curve.per_area * (self.close_end() as f64 - self.open_start() as f64))) as f32
     }
 
     /// A number of triggers up to which no frame needs a search. Computing each trigger then takes a short, bounded

@@ -7,7 +7,6 @@
 
 use crate::fixed::{WORD, fixed_towards_0};
 use crate::octave::Octave;
-use crate::octave::path::absolute;
 
 /// N, and `cos(π / N)`.
 const POINTS: usize = 192;
@@ -21,14 +20,14 @@ const FACTOR_OF_HALF: f32 = 1.489_072_6;
 const COSINES: &[i32; POINTS / 2 + 1] = &{
     let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
     while i < cosines.len() {
-        cosines[i] = (cosine * ONE as f64 + 0.5) as i32;
+        cosines[i] = (cosine * S_ONE as f64 + 0.5) as i32;
         (cosine, last) = (2.0 * COSINE * cosine - last, cosine);
         i += 1;
     }
     cosines
 };
 /// `s = 1`, where `s` counts 2⁻³⁰.
-const ONE: f32 = (1 << 30) as f32;
+const S_ONE: f32 = (1 << 30) as f32;
 
 /// More than what may make a bound too small: roundings of an `f32`, and samples off their points.
 // proofs/certificate.py
@@ -68,14 +67,14 @@ pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
 }
 
 /// Upper bounds of `|R|`, in lsb, and of `|R|` times a cubic of `s`, the openness over some unit: by all points, or by
-/// every second one. `position` and `time` are in fixed point. Samples are off by at most `noise` lsb.
+/// every second one. `position` and `time` are in fixed point. Samples of each are off by at most a `noise`.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
     position: &[i64; 7],
     time: &[i64; 4],
     openness: &[f32; 4],
-    noise: f32,
+    noise: [f32; 2],
     all: bool,
 ) -> (f32, f32) {
     let (mut in_time, mut in_exposure, mut i) = (0.0, 0.0, 0);
@@ -90,7 +89,7 @@ pub(crate) const fn errors(
         let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
         let error = error / (1 << TIME_BITS) as f32;
         let [f0, f1, f2, f3] = *openness;
-        let s = s as f32 / ONE;
+        let s = s as f32 / S_ONE;
         let weighted = error * (f0 + s * (f1 + s * (f2 + s * f3))).abs();
         in_time = if error > in_time { error } else { in_time };
         // A NaN stays, and is refused.
@@ -98,5 +97,5 @@ pub(crate) const fn errors(
         i += if all { 1 } else { 2 };
     }
     let factor = SLACK * if all { FACTOR_OF_ALL } else { FACTOR_OF_HALF };
-    ((in_time + noise) * factor, (in_exposure + noise * absolute(openness, 1.0)) * factor)
+    ((in_time + noise[0]) * factor, (in_exposure + noise[1]) * factor)
 }

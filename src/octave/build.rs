@@ -1,6 +1,6 @@
 //! The octaves of a side: which part of a ramp each serves. A candidate is kept if it has a certificate.
 
-use crate::exposure::Exposure;
+use crate::curve::Curve;
 use crate::fixed::{EIGHTH, LEAST_TOP, LINE_FROM, floor_bits, power_of_two};
 use crate::fraction::Side;
 use crate::octave::candidate::candidate;
@@ -21,8 +21,8 @@ const MOVES: [u32; 4] = [0, 5, 6, 4];
 const NO_OCTAVES: u32 = power_of_two(63).to_bits();
 
 /// The least and the greatest `a` for which a ramp has octaves, at most 1/2; none if they are not in order.
-pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 2] {
-    let [near, far] = exposure.join_fractions(side);
+pub(crate) const fn range(curve: &Curve, side: Side, ramp: Side) -> [f64; 2] {
+    let [near, far] = curve.join_fractions(side);
     if !ramp.is(side) {
         return [far, 0.5];
     }
@@ -36,17 +36,12 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
 /// Builds the octaves of a side: the far ramp's, then the near ramp's. Returns the bits of the ramps' tops at index 0.
 // Out of line, with a slice: one copy for any number of octaves.
 #[inline(never)]
-pub(crate) const fn build(
-    exposure: &Exposure,
-    ramps: &[CubicBezier; 2],
-    side: Side,
-    octaves: &mut [Octave],
-) -> [u32; 2] {
+pub(crate) const fn build(curve: &Curve, ramps: &[CubicBezier; 2], side: Side, octaves: &mut [Octave]) -> [u32; 2] {
     let (mut tops, mut first, mut i) = ([0; 2], 0, 0);
     while i < 2 {
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
-        let (top, count) = on_ramp(&Path::new(exposure, ramps, side, ramp), rest);
+        let (top, count) = on_ramp(&Path::new(curve, ramps, side, ramp), rest);
         tops[ramp as usize] = top + ((first as u32) << 23);
         first += count;
         i += 1;
@@ -57,7 +52,7 @@ pub(crate) const fn build(
 /// Builds the octaves on a ramp. Returns the bits of its first top, and how many octaves it has.
 #[inline(never)]
 const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
-    let range = range(path.exposure, path.side, path.ramp);
+    let range = range(path.curve, path.side, path.ramp);
     if range[0] >= range[1] {
         return (NO_OCTAVES, 0);
     }
@@ -77,7 +72,7 @@ const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     }
 }
 
-/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what part of the exposure
+/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what share of the exposure
 /// their polynomials serve, and whether none is missing. What is served before a first missing one counts 1024 times,
 /// so that `direct_triggers` comes first.
 #[inline(never)]

@@ -51,7 +51,7 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
     if !(most > 0.0 && most < f32::MAX) {
         return None;
     }
-    let unit_exponent = path.exposure.units.exponent();
+    let unit_exponent = path.curve.units.exponent();
     let lsb_exponent = exponent(most) - 30;
     let lsb_exponent = if lsb_exponent > unit_exponent { lsb_exponent } else { unit_exponent };
     // The factor is an `i32`.
@@ -62,7 +62,7 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
     let mut octave = Octave { center: span.center() as i32, ..Octave::NONE };
     let mut k = DEGREE;
     while k > 0 {
-        octave.c[DEGREE - k] = rounded(c[k], lsb_exponent);
+        octave.c[DEGREE - k] = to_nearest(c[k], lsb_exponent);
         k -= 1;
     }
     let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * lsb, unit_exponent);
@@ -70,8 +70,8 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }
-    let end = path.exposure.in_units(path.exposure.end_time(path.side));
-    octave.middle = if path.side.is_end() { end - middle } else { end + middle };
+    let end = path.curve.in_units(path.curve.end_time(path.side));
+    octave.middle = path.side.inwards(end, middle);
     octave.factor = if path.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,
@@ -94,10 +94,9 @@ const fn interpolated(stretch: &Stretch) -> [f64; DEGREE + 1] {
     while i <= DEGREE {
         // Single precision is enough: any nodes interpolate, and near Chebyshev's the error is small.
         offset[0] = x0 - (even + odd * NODES[i]);
-        let (place, _) = root(&offset, [-1.0, 1.0], NODES[i]);
-        let place = place as f64;
-        x[i] = (value(&stretch.position, place) - center) * per_position;
-        d[i] = value(&stretch.time, place);
+        let (s, _) = root(&offset, [-1.0, 1.0], NODES[i]);
+        x[i] = (value(&stretch.position, s as f64) - center) * per_position;
+        d[i] = value(&stretch.time, s as f64);
         i += 1;
     }
     let mut order = 1;
@@ -142,7 +141,7 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
 }
 
 /// `x` in units of `2^e`, to the nearest; halves away from 0.
-const fn rounded(x: f64, e: i32) -> i32 {
+const fn to_nearest(x: f64, e: i32) -> i32 {
     let halves = fixed_towards_0(x, e - 1);
     ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32
 }

@@ -8,8 +8,19 @@
 //! A side's array has the far ramp's `k` octaves, then the near ramp's. Of each ramp the top *at index 0* is stored: of
 //! the near ramp it is the first top, times `2^k`. So `(bits(top at index 0) - bits(a)) >> 23` is an index for either.
 //!
-//! An octave's *power* is the power of two at or below its top. A *position* is `a` less the power, in 2⁻³² of it: an
-//! `i32`, which wraps above 3/2 of the power. So does a center, and their difference fits.
+//! An octave's *power* is the power of two at or below its top. In the code `top` and `tops` are the bits of tops, as
+//! `f32`.
+//!
+//! | word | meaning | type, unit |
+//! |---|---|---|
+//! | *position* | `a`, less the power | `i32`, 2⁻³² of the power; it wraps above 3/2 of the power |
+//! | *center* | a position near the middle | the same: where both wrap, their difference fits |
+//! | *width* | the power, halved `shift` times, for a short span | `f32` |
+//! | *offset*, `x` | position less center | `i32`, 2⁻³² of the width; in `f64` in widths |
+//! | *lsb* | the unit of the polynomial's coefficients | `abs(factor)` units of time |
+//! | *span* | the part of an octave on one ramp | from one `a` to another ([`span`]) |
+//! | `p` | the parameter of the ramp's Bezier | `f64`, 0 at the end that faces the side, 1 at the other ([`path`]) |
+//! | *stretch* | the part of the Bezier that has all of a span | by `s`, `f64` or `f32`, -1 at one end, 1 at the other |
 //!
 //! ```text
 //! a             0     0.023   0.047   0.09375   0.125   0.25    0.5
@@ -29,8 +40,8 @@ pub(crate) mod certificate;
 pub(crate) mod path;
 pub(crate) mod span;
 
-/// One octave's polynomial: the time, in units, is `middle + factor · P(x)`. The *offset* `x`, from
-/// -1/2 to 1/2 in units of 2⁻³², is `(position - center) << shift`.
+/// One octave's polynomial: the time, in units, is `middle + factor · P(x)`, at the offset `x` from -1/2 to 1/2, which
+/// is `(position - center) << shift`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     pub(crate) middle: i64,
@@ -55,12 +66,11 @@ pub(crate) const fn top_at(top: u32, index: usize) -> u32 {
 impl Octave {
     pub(crate) const NONE: Self = Self { middle: 0, factor: 0, center: 0, c: [0; DEGREE] };
 
-    #[inline(always)]
     pub(crate) const fn exists(&self) -> bool {
         self.factor != 0
     }
 
-    /// The offset of a position. It fits the word, though position and center may wrap (`FILLED` in [`span`]).
+    /// The offset of a position. It fits the word (`FILLED` in [`span`]).
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
         position.wrapping_sub(self.center) << (self.center & SHIFT_MASK)
@@ -76,14 +86,14 @@ impl Octave {
     #[inline(always)]
     pub(crate) const fn polynomial(&self, x: i32) -> i32 {
         let [c8, c7, c6, c5, c4, c3, c2, c1] = self.c;
-        let value = times_high(c8, x).wrapping_add(c7);
-        let value = times_high(value, x).wrapping_add(c6);
-        let value = times_high(value, x).wrapping_add(c5);
-        let value = times_high(value, x).wrapping_add(c4);
-        let value = times_high(value, x).wrapping_add(c3);
-        let value = times_high(value, x).wrapping_add(c2);
-        let value = times_high(value, x).wrapping_add(c1);
-        times_high(value, x)
+        let value = product_high(c8, x).wrapping_add(c7);
+        let value = product_high(value, x).wrapping_add(c6);
+        let value = product_high(value, x).wrapping_add(c5);
+        let value = product_high(value, x).wrapping_add(c4);
+        let value = product_high(value, x).wrapping_add(c3);
+        let value = product_high(value, x).wrapping_add(c2);
+        let value = product_high(value, x).wrapping_add(c1);
+        product_high(value, x)
     }
 }
 
@@ -94,14 +104,14 @@ const HALVES: bool = cfg!(all(target_arch = "arm", target_abi = "eabi", not(targ
 /// `floor(a x / 2³²)`
 // proofs/octaves.py
 #[inline(always)]
-pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
-    if HALVES { times_high_by_halves(a, x) } else { ((a as i64 * x as i64) >> 32) as i32 }
+pub(crate) const fn product_high(a: i32, x: i32) -> i32 {
+    if HALVES { product_high_by_halves(a, x) } else { ((a as i64 * x as i64) >> 32) as i32 }
 }
 
 /// `floor(a x / 2³²)` by products of 16-bit halves: a third of the cost where a product of 64 bits is a call.
 // proofs/octaves.py
 #[inline(always)]
-pub(crate) const fn times_high_by_halves(a: i32, x: i32) -> i32 {
+pub(crate) const fn product_high_by_halves(a: i32, x: i32) -> i32 {
     let [a_low, x_low] = [a & 0xFFFF, x & 0xFFFF];
     let [a_high, x_high] = [a >> 16, x >> 16];
     let carried = (a_low as u32).wrapping_mul(x_low as u32) >> 16;

@@ -3,7 +3,7 @@
 //! So an error is judged without an inverse: each `p` has its time and its fraction. Only nodes and the ends of
 //! stretches are found by an inverse, and neither has to be exact.
 
-use crate::exposure::Exposure;
+use crate::curve::Curve;
 use crate::fixed::WORD;
 use crate::fraction::Side;
 use crate::octave::span::Span;
@@ -14,13 +14,13 @@ use crate::ramp::shape::Shape;
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
 /// 40 bisections resolve a `p` above 2⁻²⁰. A worse one only widens the stretch, and may cost the polynomial.
 const MOST_ROUNDS: usize = 40;
-/// The first step outwards of [`Path::place`], as a share of `p`: small, as each further one is twice as long.
+/// The first step outwards of [`Path::parameter_at`], as a share of `p`: small, as each further one is twice as long.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// A ramp, seen from a side of the curve, for which octaves are built: by powers of `p`, from 0 at the end that faces
 /// the side to 1. Coefficients from the constant up.
 pub(crate) struct Path<'a> {
-    pub(crate) exposure: &'a Exposure,
+    pub(crate) curve: &'a Curve,
     pub(crate) side: Side,
     pub(crate) ramp: Side,
     openness: [f64; 4],
@@ -43,24 +43,24 @@ pub(crate) struct Stretch {
 }
 
 impl<'a> Path<'a> {
-    pub(crate) const fn new(exposure: &'a Exposure, ramps: &[CubicBezier; 2], side: Side, ramp: Side) -> Self {
+    pub(crate) const fn new(curve: &'a Curve, ramps: &[CubicBezier; 2], side: Side, ramp: Side) -> Self {
         let shape = Shape::new(&ramps[ramp as usize], side);
-        let until_far = exposure.join_time(side.other()) as f64 - exposure.end_time(side) as f64;
+        let until_far = curve.join_time(side.other()) as f64 - curve.end_time(side) as f64;
         // At p = 0: the side's end, or the far ramp's join.
-        let (t0, u0) = if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), exposure.join_fractions(side)[1]) };
+        let (t0, u0) = if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), curve.join_fractions(side)[1]) };
         let [t1, t2, t3] = shape.time;
-        let [u1, u2, u3, u4, u5, u6] = shape.exposure();
+        let [u1, u2, u3, u4, u5, u6] = shape.mass();
         let mut fraction = [0.0, u1, u2, u3, u4, u5, u6];
-        scale(&mut fraction, exposure.per_area, 1.0);
+        scale(&mut fraction, curve.per_area, 1.0);
         fraction[0] = u0;
-        Self { exposure, side, ramp, openness: shape.openness, time: [t0, t1, t2, t3], fraction }
+        Self { curve, side, ramp, openness: shape.openness, time: [t0, t1, t2, t3], fraction }
     }
 
     /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
     /// the curve runs across time 0; but at most the interval, however far from time 0 that is.
     #[inline(never)]
     pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
-        let [start, end] = [self.exposure.end_time(Side::Start), self.exposure.end_time(Side::End)];
+        let [start, end] = [self.curve.end_time(Side::Start), self.curve.end_time(Side::End)];
         let size = if !(start < 0.0 && end > 0.0) {
             let time = if self.side.is_end() { end as f64 - since_end } else { start as f64 + since_end };
             (time as f32).abs()
@@ -75,7 +75,7 @@ impl<'a> Path<'a> {
     /// A `p` with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is near, not the
     /// nearest: farther out, a certificate is only stricter.
     #[inline(never)]
-    const fn place(&self, u: f64, up: bool) -> f64 {
+    const fn parameter_at(&self, u: f64, up: bool) -> f64 {
         let single = singles(&self.fraction, u, 1.0);
         let (p, slope) = root(&single, [0.0, 1.0], 0.5);
         // Both are good to about 2⁻²⁰, so a step of Newton's in doubles leaves about 2⁻⁴⁰.
@@ -100,8 +100,8 @@ impl<'a> Path<'a> {
     #[inline(never)]
     pub(crate) const fn stretch(&self, span: Span) -> Stretch {
         let Span { middle, half, power, .. } = span;
-        let first = self.place((middle - half) as f64, false);
-        let last = self.place((middle + half) as f64, true);
+        let first = self.parameter_at((middle - half) as f64, false);
+        let last = self.parameter_at((middle + half) as f64, true);
         let (middle_p, half_p) = (0.5 * (first + last), 0.5 * (last - first));
         let Self { mut openness, mut time, fraction: mut position, .. } = *self;
         recentred(&mut openness, middle_p, half_p);
@@ -196,15 +196,4 @@ pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32
         rounds = if is_there { MOST_ROUNDS } else { rounds + 1 };
     }
     (x, last)
-}
-
-/// `Σ |c[k]| x^k`, which bounds the polynomial on [-x, x].
-#[inline(never)]
-pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
-    let (mut value, mut c) = (0.0, c);
-    while let [lower @ .., next] = c {
-        value = value * x + next.abs();
-        c = lower;
-    }
-    value
 }

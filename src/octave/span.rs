@@ -9,9 +9,10 @@ use crate::octave::SHIFT_MASK;
 /// |---|---|
 /// | 0.48 | `half` after a halving |
 /// | 0.47 | or without one: a quarter of the top, which is at most 15/8 of the power |
-/// | 0.009 | what the center is off: 2⁸ positions as `middle` is rounded, 31 for the shift, of 2¹⁷ offsets each |
+/// | 0.009 | what the center is off by: 2⁸ as `middle` is rounded, 31 for the shift, each shifted by `MOST_SHIFT` |
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
+/// A shift of 17 moves what the center is off by to that 0.009.
 const MOST_SHIFT: u32 = 17;
 
 /// The part of an octave that lies on one ramp, in `a`.
@@ -33,14 +34,14 @@ pub(crate) struct Span {
 impl Span {
     /// The part of a ramp's `range` that lies in the octave whose top has these bits; none below LEAST_TOP.
     pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {
-        let high = f32::from_bits(top);
-        let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
-        let to = if range[1] < high as f64 { range[1] } else { high as f64 };
+        let top_value = f32::from_bits(top);
+        let from = if range[0] > 0.5 * top_value as f64 { range[0] } else { 0.5 * top_value as f64 };
+        let to = if range[1] < top_value as f64 { range[1] } else { top_value as f64 };
         if top < LEAST_TOP || from >= to {
             return None;
         }
         let to = to as f32;
-        let power = power_of_two(exponent(high));
+        let power = power_of_two(exponent(top_value));
         let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * power;
         let middle = 0.5 * (from as f32 + to);
         // A short span fills the word of its offsets too, so that its coefficients keep their bits.
@@ -58,7 +59,7 @@ impl Span {
         fixed_down(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
     }
 
-    /// `(center, per_position)`: the offset, in widths, is `(position - center) per_position`.
+    /// `(center, per_position)`, both not rounded: the offset, in widths, is `(position - center) per_position`.
     pub(crate) const fn offsets(&self) -> (f64, f64) {
         ((self.center() - (1 << 32)) as f64, (self.power / self.width / WORD) as f64)
     }

@@ -7,21 +7,22 @@
 pub(crate) mod bezier;
 pub(crate) mod shape;
 
-use crate::fixed::{Units, fixed_towards_0, in_2_60};
+use crate::fixed::{Units, clamped, fixed_towards_0, in_2_60};
 use crate::fraction::Side;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
 use crate::search::Series;
 
-/// The coefficients of a mass count `2^MASS_SHIFT`: they are up to 2⁹ times as great as the exposure
+/// The coefficients of a mass are in units of `2^MASS_SHIFT`, as they are up to 2⁹ times the exposure
 /// (proofs/domain.py).
 const MASS_SHIFT: u32 = 9;
-/// Those of a way count `2^WAY_SHIFT` fine units: they are up to six times as great as the interval.
+/// Those of a way are in `2^WAY_SHIFT` fine units, as they are up to six times the interval.
 const WAY_SHIFT: u32 = 3;
 
-/// In [`Ramp::place_of_time`] a way errs by at most `|time| / 2^TIME_SHIFT` plus `LEAST_WAY_ERROR`, in fine units. The
-/// time is in units, of one fine unit or more: so the first term is a quarter ulp of the time or less.
+/// [`Ramp::place_of_time`] finds a way within an error of `|time| / 2^TIME_SHIFT` plus [`LEAST_WAY_ERROR`] fine units.
+/// `time` is in units, each of one fine unit or more: so the first term is a quarter ulp of the time or less.
 const TIME_SHIFT: u32 = 26;
+/// Within this error, in fine units, a search for a way always ends: 25 would do (proofs/search.py).
 const LEAST_WAY_ERROR: i64 = 32;
 
 /// One Bezier as a part of a curve.
@@ -33,26 +34,26 @@ pub(crate) struct Ramp {
     openness: [f32; 4],
     /// The differences of their times, in `2^WAY_SHIFT` fine units.
     differences: [i64; 3],
-    /// The coefficients of the mass between an end, the earlier or the later one, and a place, in `2^MASS_SHIFT`.
-    mass: [[i64; 6]; 2],
-    /// The ramp's part of the exposure.
-    pub(crate) share: i64,
+    /// The coefficients of the mass since an end, the earlier or the later one, in units of `2^MASS_SHIFT`.
+    mass_powers: [[i64; 6]; 2],
+    /// The mass of the whole ramp.
+    pub(crate) whole: i64,
 }
 
 impl Ramp {
-    /// `per_area` is one over the curve's area, `share` this ramp's part of the exposure.
-    pub(crate) const fn new(bezier: &CubicBezier, per_area: f64, share: i64, units: Units) -> Self {
-        let powers = [Shape::new(bezier, Side::Start).exposure(), Shape::new(bezier, Side::End).exposure()];
-        let (mut mass, mut k) = ([[0; 6]; 2], 0);
+    /// `per_area` is one over the curve's area, `whole` the mass of this ramp.
+    pub(crate) const fn new(bezier: &CubicBezier, per_area: f64, whole: i64, units: Units) -> Self {
+        let powers = [Shape::new(bezier, Side::Start).mass(), Shape::new(bezier, Side::End).mass()];
+        let (mut mass_powers, mut k) = ([[0; 6]; 2], 0);
         while k < 12 {
-            mass[k / 6][k % 6] = fixed_towards_0(powers[k / 6][k % 6] * per_area, MASS_SHIFT as i32 - 62);
+            mass_powers[k / 6][k % 6] = fixed_towards_0(powers[k / 6][k % 6] * per_area, MASS_SHIFT as i32 - 62);
             k += 1;
         }
         let [t0, t1, t2, t3] = bezier.times();
         let [u0, u1, u2, u3] = [units.of(t0), units.of(t1), units.of(t2), units.of(t3)];
         let [d0, d1, d2] = [units.refined(u1 - u0), units.refined(u2 - u1), units.refined(u3 - u2)];
         let differences = [d0 >> WAY_SHIFT, d1 >> WAY_SHIFT, d2 >> WAY_SHIFT];
-        Self { ends: [t0, t3], openness: bezier.opennesses(), differences, mass, share }
+        Self { ends: [t0, t3], openness: bezier.opennesses(), differences, mass_powers, whole }
     }
 
     /// The time of the end that faces a side.
@@ -61,36 +62,30 @@ impl Ramp {
     }
 
     /// The mass since the end that faces a side.
-    #[inline(always)]
     pub(crate) const fn mass_since(&self, side: Side) -> Series<'_, 6> {
-        Series { c: &self.mass[side as usize], shift: MASS_SHIFT }
+        Series { c: &self.mass_powers[side as usize], shift: MASS_SHIFT }
     }
 
     /// The coefficients of the way since the end that faces a side, in `2^WAY_SHIFT` fine units.
-    #[inline(always)]
     const fn way_powers(&self, side: Side) -> [i64; 3] {
         let [d0, d1, d2] = self.differences;
         powers(if side.is_end() { [d2, d1, d0] } else { [d0, d1, d2] })
     }
 
-    /// The time, in units, by which a part of the exposure has been collected since the end that faces a side, within
-    /// an error of the part; and the evaluations of the search. It starts from the end from which less is missing.
+    /// The time, in units, by which a mass has been collected since the end that faces a side, within an error of the
+    /// mass; and the evaluations of the search. The search starts from the end from which less mass is missing.
     #[inline(always)]
-    pub(crate) const fn time_of_part(&self, side: Side, part: i64, error: i64, units: Units) -> (i64, u32) {
-        let rest = self.share - part;
-        let (from, sought) = if part <= rest { (side, part) } else { (side.other(), rest) };
-        let (place, evaluations) = self.mass_since(from).solve(sought, error);
+    pub(crate) const fn time_of_mass(&self, side: Side, mass: i64, error: i64, units: Units) -> (i64, u32) {
+        let rest = self.whole - mass;
+        let (from, target) = if mass <= rest { (side, mass) } else { (side.other(), rest) };
+        let (place, evaluations) = self.mass_since(from).solve(target, error);
         let way = Series { c: &self.way_powers(from), shift: WAY_SHIFT }.at(place);
-        // What is cut of the coefficients could lead beyond an end.
         let [d0, d1, d2] = self.differences;
-        let length = (d0 + d1 + d2) << WAY_SHIFT;
-        let way = if way < length { way } else { length };
-        let way = units.coarsened(if way > 0 { way } else { 0 });
-        let end = units.of(self.end_time(from));
-        (if from.is_end() { end - way } else { end + way }, evaluations)
+        let way = clamped(way, (d0 + d1 + d2) << WAY_SHIFT);
+        (from.inwards(units.of(self.end_time(from)), units.coarsened(way)), evaluations)
     }
 
-    /// The place of a time on the ramp, counted from the end that is nearer in time; that end first.
+    /// The end that is nearer in time, by the side that it faces, and the place of a time from there.
     #[inline(never)]
     pub(crate) const fn place_of_time(&self, t: f32, units: Units) -> (Side, u64) {
         let [start, end] = self.ends;
@@ -99,19 +94,17 @@ impl Ramp {
         let time = units.of(t);
         let way = (time - units.of(self.end_time(from))).abs();
         let ways = Series { c: &self.way_powers(from), shift: WAY_SHIFT };
-        (from, ways.solve(units.refined(way), (time.abs() >> TIME_SHIFT) + LEAST_WAY_ERROR).0)
+        // |time|, or one less: fewer registers than `abs` takes make the search faster.
+        let size = time ^ (time >> 63);
+        (from, ways.solve(units.refined(way), (size >> TIME_SHIFT) + LEAST_WAY_ERROR).0)
     }
 
-    /// The part of the exposure between the end that faces a side and a place.
-    #[inline(always)]
+    /// The mass between the end that faces a side and a place.
     pub(crate) const fn mass_at(&self, side: Side, place: u64) -> i64 {
-        let mass = self.mass_since(side).at(place);
-        let mass = if mass < self.share { mass } else { self.share };
-        if mass > 0 { mass } else { 0 }
+        clamped(self.mass_since(side).at(place), self.whole)
     }
 
     /// The openness, in 2⁻⁶⁰, at a place from the end that faces a side.
-    #[inline(always)]
     pub(crate) const fn openness_at(&self, side: Side, place: u64) -> i64 {
         let [f0, f1, f2, f3] = self.openness;
         let [f0, f1, f2, f3] = if side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };

@@ -26,7 +26,7 @@ impl Shape {
 
     /// `∫ f t' dp` since the end, from the first power: the mass, not divided by the area.
     #[inline(never)]
-    pub(crate) const fn exposure(&self) -> [f64; 6] {
+    pub(crate) const fn mass(&self) -> [f64; 6] {
         // (p^k)' = k p^(k-1), and the integral divides by the next exponent.
         const COUNT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
         let Self { openness: f, time: t } = self;
@@ -52,7 +52,7 @@ impl Shape {
 
 /// `∫ f dt` over the ramp, with the same bits from either end.
 pub(crate) const fn area(bezier: &CubicBezier) -> f64 {
-    let [first, last] = [Shape::new(bezier, Side::Start).exposure(), Shape::new(bezier, Side::End).exposure()];
+    let [first, last] = [Shape::new(bezier, Side::Start).mass(), Shape::new(bezier, Side::End).mass()];
     let (mut from_first, mut from_last, mut k) = (0.0, 0.0, 0);
     while k < first.len() {
         from_first += first[k];

@@ -1,4 +1,9 @@
 //! From fractions of the exposure to the ticks of a timer.
+//!
+//! 1. Trigger `i` of `n` is due at the fraction `(2i + 1) / 2n`, counted from the curve's nearer end ([`Frame`]).
+//! 2. Its time, in units ([`Inverse::time_units`]).
+//! 3. The delay since the curve's start, times the rate, in half ticks, rounded down ([`TickScale`]).
+//! 4. The nearest tick.
 
 use crate::error::ScheduleError;
 use crate::fixed::DOUBLE_WORD;
@@ -35,10 +40,10 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
         self.tick_at(i, 0.0)
     }
 
-    /// The tick of the fraction `(2i + 1 + more) / 2n`, where `more` is ±duty for the ends of a pulse.
+    /// The tick of the fraction `(2i + 1 + by) / 2n`: `by` is 0 for a trigger, and ±duty for the ends of a pulse.
     #[inline(always)]
-    pub(crate) const fn tick_at(&self, i: u32, more: f32) -> u32 {
-        self.scale.tick(self.inverse.time_units(self.fraction(i, more)))
+    pub(crate) const fn tick_at(&self, i: u32, by: f32) -> u32 {
+        self.scale.tick(self.inverse.time_units(self.fraction(i, by)))
     }
 
     /// Does trigger `i` need no search?
@@ -47,12 +52,12 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
         i < self.n && self.inverse.direct_units(self.fraction(i, 0.0)).is_some()
     }
 
-    /// The fraction `(2i + 1 + more) / 2n`. For a trigger `more` is 0, and this is the nearest `f32`. For an end of a
-    /// pulse it is within one and a half ulp (proofs/ticks.py).
+    /// The fraction `(2i + 1 + by) / 2n`: of a trigger the nearest `f32`, of an end of a pulse within one and a half ulp
+    /// (proofs/ticks.py).
     #[inline(always)]
-    const fn fraction(&self, i: u32, more: f32) -> Fraction {
+    const fn fraction(&self, i: u32, by: f32) -> Fraction {
         let (odd, whole) = (2 * i + 1, 2 * self.n);
-        Fraction::of_parts(odd as f32 + more, (whole - odd) as f32 - more, whole as f32)
+        Fraction::of_parts(odd as f32 + by, (whole - odd) as f32 - by, whole as f32)
     }
 
     /// Do all triggers keep a gap?
@@ -84,8 +89,8 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
 pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>) -> u32 {
     let [first, last] = [inverse.least_direct(Side::Start), inverse.least_direct(Side::End)];
     let least = if first > last { first } else { last };
-    // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed. As fractions are rounded to
-    // `f32`, 2⁻²⁴, four roundings, is added: 2⁴⁰ in 2⁻⁶⁴. That it saturates shows that the divisor is not 0.
+    // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed. In 2⁻⁶⁴: 2⁻²⁴ is added, which
+    // is more than `f32` round fractions by. (The sum saturates, so that the compiler sees a divisor that is not 0.)
     let most = (1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40);
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
@@ -131,7 +136,7 @@ impl TickScale {
         if rate == 0 {
             return Err(ScheduleError::RateZero);
         }
-        let curve = &inverse.exposure;
+        let curve = &inverse.curve;
         let [start_units, end_units] =
             [curve.in_units(curve.end_time(Side::Start)), curve.in_units(curve.end_time(Side::End))];
         let (length_units, exponent) = ((end_units - start_units) as u64, curve.units.exponent());
@@ -153,7 +158,7 @@ impl TickScale {
 
     /// The tick at which the curve ends.
     pub(crate) const fn length<const OCTAVES: usize>(&self, inverse: &Inverse<OCTAVES>) -> u32 {
-        self.tick(inverse.exposure.in_units(inverse.exposure.end_time(Side::End)))
+        self.tick(inverse.curve.in_units(inverse.curve.end_time(Side::End)))
     }
 
     /// The nearest tick to a time.

@@ -46,8 +46,9 @@ use crate::trigger::ticks::{Frame, MOST_TRIGGERS, TickScale};
 pub struct TimedCurve<'a, const OCTAVES: usize = 8> {
     inverse: &'a Inverse<OCTAVES>,
     scale: TickScale,
-    /// The ticks for which a fully open shutter would collect as much light, rounded down.
-    exposure: u32,
+    /// A number of ticks for which a fully open shutter collects no more light than the curve; the greatest but for
+    /// rounding.
+    exposure_ticks: u32,
     min_gap: u32,
     min_pulse: u32,
 }
@@ -55,9 +56,9 @@ pub struct TimedCurve<'a, const OCTAVES: usize = 8> {
 impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     pub(crate) const fn new(inverse: &'a Inverse<OCTAVES>, rate: Hz, exposure: f32) -> Result<Self, ScheduleError> {
         let scale = tried!(TickScale::new(inverse, rate));
-        // The exposure is within 2⁻²³ of itself, and the rate, the product and the result are rounded by 2⁻²⁴.
-        let exposure = (exposure * rate.0 as f32 * (1.0 - 3.0 / (1 << 23) as f32)) as u32;
-        Ok(Self { inverse, scale, exposure, min_gap: 1, min_pulse: 1 })
+        // Relative errors: 2⁻²³ of `exposure`, and 2⁻²⁴ of the rate and of each product. 3 · 2⁻²³ is more than all.
+        let exposure_ticks = (exposure * rate.0 as f32 * (1.0 - 3.0 / (1 << 23) as f32)) as u32;
+        Ok(Self { inverse, scale, exposure_ticks, min_gap: 1, min_pulse: 1 })
     }
 
     /// Sets the minimum gap between two triggers, and from the end of a pulse to the start of the next, in ticks. With
@@ -93,7 +94,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// Returns a [`ScheduleError`] if `n` is above 2²², or if a gap is too small.
     pub const fn trigger_ticks(&self, n: u32) -> Result<TriggerTicks<'a, OCTAVES>, ScheduleError> {
         let frame = tried!(self.frame(n));
-        if !self.surely_keep(self.exposure, n, self.min_gap) {
+        if !self.surely_keep(self.exposure_ticks, n, self.min_gap) {
             tried!(frame.check(self.min_gap));
         }
         Ok(TriggerTicks { frame, left: 0..n })
@@ -146,7 +147,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     #[must_use]
     pub const fn max_triggers(&self, wanted: u32) -> u32 {
         let wanted = if wanted < MOST_TRIGGERS { wanted } else { MOST_TRIGGERS };
-        let sure = self.exposure / self.room(self.min_gap);
+        let sure = self.exposure_ticks / self.room(self.min_gap);
         if wanted <= 1 || wanted <= sure || self.min_gap == 0 {
             return wanted;
         }
@@ -171,8 +172,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// gap is too short.
     pub const fn pulse_ticks(&self, n: u32, duty: f32) -> Result<PulseTicks<'a, OCTAVES>, ScheduleError> {
         let frame = tried!(self.pulse_frame(n, duty));
-        let lit = (self.exposure as f32 * duty) as u32;
-        let dark = (self.exposure as f32 * (1.0 - duty)) as u32;
+        let lit = (self.exposure_ticks as f32 * duty) as u32;
+        let dark = (self.exposure_ticks as f32 * (1.0 - duty)) as u32;
         if !(self.surely_keep(lit, n, self.min_pulse) && self.surely_keep(dark, n, self.min_gap)) {
             tried!(frame.check(self.min_gap, self.min_pulse));
         }
@@ -216,13 +217,16 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
         Pulses::new(tried!(self.frame(n)), duty)
     }
 
-    /// How many ticks of the exposure each trigger needs, so that the next is surely `least` ticks later.
+    /// How many ticks of a fully open shutter's exposure each trigger needs, so that the next is surely `least` later.
     ///
-    /// Openness is at most 1, so a share of the exposure takes at least its part of `exposure`, `E / n`. Two ends err,
-    /// each by 0.52 tick and by two ulp of a fraction, at most 2⁻²³ of `E` (accuracy.md); the rounded `part` by up to
-    /// three times 2⁻²⁴ of `E`. So 2 ticks and 2⁻²¹ of `E` are enough, and a tick for what the shift cuts of that.
+    /// Openness is at most 1, so the nth part of `part` ticks takes `part / n` or more. Of `E = exposure_ticks`, at most
+    /// 3 ticks and 2⁻²¹ are lost:
+    ///
+    /// - by both of its ends 1.04 ticks, and four ulp of a fraction, at most 2⁻²² (accuracy.md);
+    /// - by `part` three roundings, 3 · 2⁻²⁴;
+    /// - by the shift below less than a tick.
     const fn room(&self, least: u32) -> u32 {
-        least.saturating_add(3 + (self.exposure >> 21))
+        least.saturating_add(3 + (self.exposure_ticks >> 21))
     }
 
     /// Are `least` ticks kept by each of `n` equal shares of a `part` of the exposure, whatever the curve?

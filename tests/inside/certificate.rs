@@ -1,6 +1,5 @@
 //! A certificate is never below the truth.
 
-use crate::exposure::Exposure;
 use crate::fixed::{WORD, fixed_down, power_of_two_f64};
 use crate::fraction::Side;
 use crate::inside::support::aimed::{FAMILIES, aimed};
@@ -26,15 +25,15 @@ impl Truth {
     /// Judges all octaves of a curve along `samples` places each, by the way that an answer takes from a position on.
     fn judge<const OCTAVES: usize>(&mut self, curve: &Curve, samples: u32) {
         let ramps = [curve.opening, curve.closing].map(CubicBezier::new);
-        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else {
+        let Ok(integrated) = crate::curve::Curve::new(&ramps[0], &ramps[1]) else {
             return;
         };
         let exact = Exact::new(curve);
         for side in Side::BOTH {
             let mut octaves = [Octave::NONE; OCTAVES];
-            let tops = build(&exposure, &ramps, side, &mut octaves);
+            let tops = build(&integrated, &ramps, side, &mut octaves);
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
-                let (range, path) = (range(&exposure, side, ramp), Path::new(&exposure, &ramps, side, ramp));
+                let (range, path) = (range(&integrated, side, ramp), Path::new(&integrated, &ramps, side, ramp));
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, top_at(steps, index)) {
                         self.octaves += 1;
@@ -58,11 +57,11 @@ impl Path<'_> {
         let span = &stretch.span;
         assert_eq!(candidate.octave, *octave);
         let bounds = certificate(self, &candidate, &stretch);
-        let start = fixed_down(self.exposure.end_time(self.side), self.exposure.units.exponent());
+        let start = fixed_down(self.curve.end_time(self.side), self.curve.units.exponent());
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(JOIN_OFF + FRACTION_OFF * span.to));
         // The span itself rounds its end.
-        let end = range(self.exposure, self.side, self.ramp)[1].min(f64::from(span.to));
+        let end = range(self.curve, self.side, self.ramp)[1].min(f64::from(span.to));
         for i in 0..=samples {
             // Evenly, and so also next to both ends.
             let a = span.from + (end - span.from) * f64::from(i) / f64::from(samples);
@@ -74,8 +73,8 @@ impl Path<'_> {
             let position = (a / f64::from(span.power) - 1.0) * f64::from(WORD);
             let position = position.floor() as i64 as i32;
             let time = octave.time(octave.offset(position)) - start;
-            let time = time as f64 * power_of_two_f64(self.exposure.units.exponent());
-            let served = Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
+            let time = time as f64 * power_of_two_f64(self.curve.units.exponent());
+            let served = Dd::from(f64::from(self.curve.end_time(self.side))) + Dd::from(time);
             let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
             // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
             let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
@@ -145,14 +144,14 @@ fn an_offset_beyond_its_word_is_refused() {
     let opening = std::array::from_fn(|k| (thirds[k], thirds[k]));
     let closing = std::array::from_fn(|k| (2.0 + thirds[k], 1.0 - thirds[k]));
     let ramps = [opening, closing].map(CubicBezier::new);
-    let exposure = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
+    let integrated = crate::curve::Curve::new(&ramps[0], &ramps[1]).expect("a shutter");
     let mut judged = 0;
     for side in Side::BOTH {
-        let path = Path::new(&exposure, &ramps, side, side);
+        let path = Path::new(&integrated, &ramps, side, side);
         let mut octaves = [Octave::NONE; 8];
-        let tops = build(&exposure, &ramps, side, &mut octaves);
+        let tops = build(&integrated, &ramps, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
-            let Some(span) = Span::new(range(&exposure, side, side), top_at(tops[side as usize], index)) else {
+            let Some(span) = Span::new(range(&integrated, side, side), top_at(tops[side as usize], index)) else {
                 continue;
             };
             let (candidate, mut stretch) = path.built(span);

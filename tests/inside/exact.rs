@@ -1,16 +1,15 @@
 //! The integers of the answers, held to 128 bits or to `f64`: each function that a script of `proofs` names.
 
-use crate::exposure::Exposure;
 use crate::fixed::{
-    LINE_FROM, WORD, fixed_down, fixed_towards_0, floor_bits, in_2_60, power_of_two, power_of_two_f64, single, times,
-    times_up,
+    LINE_FROM, WORD, fixed_down, fixed_towards_0, floor_bits, in_2_60, power_of_two, power_of_two_f64, product,
+    product_up, single,
 };
 use crate::fraction::{Fraction, Side};
 use crate::inside::support::curves::{Rng, named, random_hard, random_typical};
 use crate::inside::support::oracle::{Curve, Dd, Exact, ulp_f32};
 use crate::inverse::{Inverse, Section};
 use crate::octave::build::{build, range};
-use crate::octave::{Octave, bound, times_high_by_halves, top_at};
+use crate::octave::{Octave, bound, product_high_by_halves, top_at};
 use crate::ramp::bezier::CubicBezier;
 use crate::rate::Hz;
 use crate::search::{MAX_EVALUATIONS, Series};
@@ -68,12 +67,12 @@ fn products_of_two_words() {
         for &x in &numbers {
             let x = x as u64;
             let exact = a as i128 * x as i128;
-            let low = exact - ((times(a, x) as i128) << 64);
+            let low = exact - ((product(a, x) as i128) << 64);
             assert!((0..3 << 64).contains(&low), "{a} * {x}");
             for shift in [0, 3, 9, 31] {
                 let exact = exact >> (64 - shift);
                 if let Ok(exact) = i64::try_from(exact) {
-                    assert_eq!(times_up(a, x, shift), exact, "{a} * {x}, up by {shift}");
+                    assert_eq!(product_up(a, x, shift), exact, "{a} * {x}, up by {shift}");
                 }
             }
         }
@@ -91,7 +90,7 @@ fn the_upper_word_of_a_product_by_halves() {
     for &a in &words {
         for &x in &words {
             let exact = ((a as i64 * x as i64) >> 32) as i32;
-            assert_eq!(times_high_by_halves(a, x), exact, "{a} * {x}");
+            assert_eq!(product_high_by_halves(a, x), exact, "{a} * {x}");
         }
     }
 }
@@ -140,14 +139,14 @@ fn conversions_to_whole_units() {
 fn series_of_masses_and_their_search() {
     let (mut rng, mut most, mut all, mut bisected) = (Rng::new(94, 0), 0, [0; 2], 0);
     for inverse in inverses() {
-        for ramp in Side::BOTH.map(|side| inverse.exposure.ramp(side)).into_iter().filter(|ramp| ramp.share > 0) {
+        for ramp in Side::BOTH.map(|side| inverse.curve.ramp(side)).into_iter().filter(|ramp| ramp.whole > 0) {
             let series = Side::BOTH.map(|side| ramp.mass_since(side));
             for series in &series {
                 assert!(series.c.iter().map(|c| c.unsigned_abs()).sum::<u64>() < 1 << 62, "{ramp:?}");
                 for k in 0..60 {
                     let p = if k == 0 { u64::MAX } else { rng.bits() >> (k % 16) };
                     judge_value(series, p);
-                    let target = (rng.unit() * 0.5 * ramp.share as f64) as i64;
+                    let target = (rng.unit() * 0.5 * ramp.whole as f64) as i64;
                     let (place, evaluations) = series.solve(target, (target >> 27) + (1 << 12));
                     assert!((target - series.at(place)).abs() <= (target >> 27) + (1 << 12), "{target} {ramp:?}");
                     most = most.max(evaluations);
@@ -184,10 +183,10 @@ fn judge_value(series: &Series<6>, p: u64) {
 fn the_octave_of_a_fraction() {
     let (mut rng, mut seen) = (Rng::new(95, 0), 0);
     for (inverse, [opening, closing]) in ramps().filter_map(|r| Some((Inverse::<8>::new(&r[0], &r[1]).ok()?, r))) {
-        let exposure = Exposure::new(&opening, &closing).expect("as before");
+        let integrated = crate::curve::Curve::new(&opening, &closing).expect("as before");
         for (side, ramp) in Side::BOTH.into_iter().flat_map(|side| Side::BOTH.map(|ramp| (side, ramp))) {
-            let first_top = build(&exposure, &[opening, closing], side, &mut [Octave::NONE; 8])[ramp as usize];
-            let [from, to] = range(&exposure, side, ramp);
+            let first_top = build(&integrated, &[opening, closing], side, &mut [Octave::NONE; 8])[ramp as usize];
+            let [from, to] = range(&integrated, side, ramp);
             for _ in 0..1000 {
                 let a = fraction(&mut rng);
                 if f64::from(a) <= from || f64::from(a) > to {
@@ -227,11 +226,11 @@ fn the_octave_of_a_fraction() {
 fn a_time_in_units_is_rounded_once() {
     let (mut rng, mut lines, mut near_0) = (Rng::new(96, 0), 0, 0);
     for inverse in inverses() {
-        let (exposure, unit) = (&inverse.exposure, inverse.exposure.units.exponent());
-        let start = exposure.end_time(Side::Start);
-        let [near, far] = exposure.join_fractions(Side::Start);
+        let (integrated, unit) = (&inverse.curve, inverse.curve.units.exponent());
+        let start = integrated.end_time(Side::Start);
+        let [near, far] = integrated.join_fractions(Side::Start);
         // Across time 0 also the fractions about it.
-        let at_0 = crate::cdf::cdf(exposure, 0.0);
+        let at_0 = crate::cdf::cdf(integrated, 0.0);
         for k in 0..3000 {
             let u = match k % 3 {
                 0 => fraction(&mut rng),
@@ -252,7 +251,7 @@ fn a_time_in_units_is_rounded_once() {
             let is_on_line = f64::from(u) > near * 1.000_001 && f64::from(u) < far * 0.999_999 && u > 1.0 / 512.0;
             if is_on_line {
                 let word = (f64::from(u) * power_of_two_f64(32)) as i128;
-                let line = i128::from(exposure.line_base) + ((i128::from(exposure.line_slope) * word) >> 32);
+                let line = i128::from(integrated.line_base) + ((i128::from(integrated.line_slope) * word) >> 32);
                 assert_eq!(i128::from(time), line, "{u:e}");
                 lines += 1;
             }
@@ -271,16 +270,16 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
     for curve in curves() {
         let [opening, closing] = [curve.opening, curve.closing].map(CubicBezier::new);
         let Ok(inverse) = Inverse::<0>::new(&opening, &closing) else { continue };
-        let exposure = &inverse.exposure;
-        let (exact, unit) = (Exact::new(&curve), power_of_two_f64(exposure.units.exponent()));
-        let [start, end] = Side::BOTH.map(|side| f64::from(exposure.end_time(side)));
+        let integrated = &inverse.curve;
+        let (exact, unit) = (Exact::new(&curve), power_of_two_f64(integrated.units.exponent()));
+        let [start, end] = Side::BOTH.map(|side| f64::from(integrated.end_time(side)));
         for k in 0..1500 {
             let side = Side::end_if(k % 2 == 0);
             let a = fraction(&mut rng) * power_of_two(-(rng.below(8) as i32));
             let fraction_of_side = Fraction { side, bits: a.to_bits() };
             let line = inverse.direct_units(fraction_of_side);
-            let time = line.unwrap_or_else(|| exposure.time_units(fraction_of_side).0);
-            let is_beyond = f64::from(a) > exposure.join_fractions(side)[0];
+            let time = line.unwrap_or_else(|| integrated.time_units(fraction_of_side).0);
+            let is_beyond = f64::from(a) > integrated.join_fractions(side)[0];
             let slack = [1, 4, 0][if line.is_some() { 2 } else { is_beyond as usize }];
             let [low, high] = [-slack, slack].map(|more| {
                 let time = time + more;
@@ -299,7 +298,7 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
             let part = if k % 3 == 0 { rng.unit() } else { f64::from(fraction(&mut rng)) };
             let t = (if k % 2 == 0 { start + part * (end - start) } else { end - part * (end - start) }) as f32;
             let moved = ulp_f32(f64::from(t)) / 4.0 + (end - start) * power_of_two_f64(-54);
-            let value = f64::from(crate::cdf::cdf(exposure, t));
+            let value = f64::from(crate::cdf::cdf(integrated, t));
             let [early, late] = [-moved, moved].map(|by| exact.cdf(Dd::from(f64::from(t)) + Dd::from(by)));
             let off = (early - Dd::from(value)).hi.max((Dd::from(value) - late).hi).max(0.0);
             worst[2] = worst[2].max(off / (0.875 * ulp_f32(value).max(power_of_two_f64(-47))));
@@ -313,7 +312,7 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
 #[test]
 fn a_fraction_next_to_a_join_is_on_its_own_part() {
     for (inverse, side) in inverses().flat_map(|inverse| Side::BOTH.map(|side| (inverse, side))) {
-        let joins = inverse.exposure.join_fractions(side);
+        let joins = inverse.curve.join_fractions(side);
         let [near, far] = [joins[0].max(f64::from(LINE_FROM)), joins[1]];
         for bits in joins.into_iter().flat_map(|join| [-2, -1, 0, 1, 2].map(|by| floor_bits(join) as i32 + by)) {
             let a = f64::from(f32::from_bits(bits as u32));
@@ -335,8 +334,8 @@ fn a_fraction_next_to_a_join_is_on_its_own_part() {
 fn a_tick_is_the_nearest() {
     let mut rng = Rng::new(98, 0);
     for inverse in inverses() {
-        let (exposure, e) = (&inverse.exposure, inverse.exposure.units.exponent());
-        let [start, end] = Side::BOTH.map(|side| exposure.in_units(exposure.end_time(side)));
+        let (integrated, e) = (&inverse.curve, inverse.curve.units.exponent());
+        let [start, end] = Side::BOTH.map(|side| integrated.in_units(integrated.end_time(side)));
         let length = end - start;
         // In half ticks, rounded down: 128 bits hold all that is not 0.
         let halves = |delay: i64, rate: u32| {

@@ -1,11 +1,12 @@
-//! The exposure: two ramps and the plateau between them, one area over all three, and the time of a fraction.
+//! A curve as it is integrated: two ramps and the plateau between them, one area over all three, and the time of a
+//! fraction.
 //!
 //! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau
 //! or on the far ramp. A mirrored curve gives mirrored times, but for that of 1/2, and for what rounding down does.
 
 use crate::domain::{self, LEAST_EXPOSURE};
 use crate::error::{CurveError, tried};
-use crate::fixed::{ONE, Units, fixed_down, fixed_towards_0, times};
+use crate::fixed::{ONE, Units, clamped, fixed_down, fixed_towards_0, product};
 use crate::fraction::{Fraction, Side};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
@@ -14,12 +15,12 @@ use crate::search::LEAST_ERROR;
 
 /// A search rounds its fraction to the nearest multiple of `2^-GRID`: every `f32` from 2⁻²³ on is one.
 const GRID: u32 = 46;
-/// A search collects its fraction to `2^-ERROR_SHIFT` of it, plus [`LEAST_ERROR`]: so neighbouring fractions keep their
-/// order (proofs/search.py).
+/// A search ends where the mass is within `2^-ERROR_SHIFT` of the fraction, plus [`LEAST_ERROR`], of the fraction: so
+/// neighbouring fractions keep their order (proofs/search.py).
 const ERROR_SHIFT: u32 = 27;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Exposure {
+pub(crate) struct Curve {
     ramps: [Ramp; 2],
     /// One over the area, `A = ∫ f dt`.
     pub(crate) per_area: f64,
@@ -29,7 +30,7 @@ pub(crate) struct Exposure {
     pub(crate) units: Units,
 }
 
-impl Exposure {
+impl Curve {
     /// Checks both ramps, and integrates them. Out of line: all constructors share it.
     #[inline(never)]
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
@@ -57,9 +58,9 @@ impl Exposure {
         &self.ramps[side as usize]
     }
 
-    /// The plateau's part of the exposure.
-    pub(crate) const fn plateau(&self) -> i64 {
-        ONE - self.ramps[0].share - self.ramps[1].share
+    /// The mass of the plateau.
+    pub(crate) const fn plateau_mass(&self) -> i64 {
+        ONE - self.ramps[0].whole - self.ramps[1].whole
     }
 
     /// The time of the curve's end at a side.
@@ -78,35 +79,34 @@ impl Exposure {
         self.units.of(time)
     }
 
-    /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. What is
-    /// collected then differs from `a` by at most `a / 2²⁶` plus 2⁻⁴⁶. Of 0, a negative number or NaN it is the end
-    /// itself, though no light may fall there.
+    /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. The mass at that
+    /// time differs from `a` by at most `a / 2²⁶` plus 2⁻⁴⁶: by the grid, the error, and what a measurement is low by
+    /// (proofs/search.py). Of 0, a negative number or NaN it is the end itself, though no light may fall there.
     #[inline(always)]
     pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {
         let (side, a) = (fraction.side, fraction.get());
-        let a = if a > 0.0 { ((fixed_down(a, -1 - GRID as i32) + 1) >> 1) << (62 - GRID) } else { 0 };
-        let error = (a >> ERROR_SHIFT) + LEAST_ERROR;
-        let near = self.ramp(side).share;
-        let (ramp, part) = if a < near {
-            (side, a)
-        } else if a - near < self.plateau() {
-            let [base, until] = [self.in_units(self.join_time(side)), self.in_units(self.join_time(side.other()))];
-            // part / 2⁶² · area, as twice both over 2⁶⁴.
-            let way = times((a - near) << 1, (self.line_slope as u64) << 1);
-            let length = (until - base).abs();
-            let way = if way < length { way } else { length };
-            return (if side.is_end() { base - way } else { base + way }, 0);
+        let mass = if a > 0.0 { ((fixed_down(a, -1 - GRID as i32) + 1) >> 1) << (62 - GRID) } else { 0 };
+        let error = (mass >> ERROR_SHIFT) + LEAST_ERROR;
+        let after_near = mass - self.ramp(side).whole;
+        let after_plateau = after_near - self.plateau_mass();
+        let (ramp, mass) = if after_near < 0 {
+            (side, mass)
+        } else if after_plateau < 0 {
+            let [join, until] = [self.in_units(self.join_time(side)), self.in_units(self.join_time(side.other()))];
+            // mass / 2⁶² · area, as twice both over 2⁶⁴.
+            let way = product(after_near << 1, (self.line_slope as u64) << 1);
+            return (side.inwards(join, clamped(way, (until - join).abs())), 0);
         } else {
-            (side.other(), a - near - self.plateau())
+            (side.other(), after_plateau)
         };
         // One address, or the search keeps the curve's and an index on the stack.
-        core::hint::black_box(self.ramp(ramp)).time_of_part(side, part, error, self.units)
+        core::hint::black_box(self.ramp(ramp)).time_of_mass(side, mass, error, self.units)
     }
 
     /// The fractions at which the near ramp ends and the far ramp begins.
     #[inline(never)]
     pub(crate) const fn join_fractions(&self, side: Side) -> [f64; 2] {
-        let near = self.ramp(side).share;
-        [near as f64 / ONE as f64, (near + self.plateau()) as f64 / ONE as f64]
+        let near = self.ramp(side).whole;
+        [near as f64 / ONE as f64, (near + self.plateau_mass()) as f64 / ONE as f64]
     }
 }
