@@ -6,18 +6,19 @@
 
 use std::collections::BTreeMap;
 
-use crate::support::aimed::{FAMILIES, aimed};
-use crate::support::cases::{CASES, shutter};
 use crate::support::curves::{
-    Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted, around, hard_openness,
-    hard_times, hard_us, instant, line, named, neighbours, placed, random_hard, random_typical, settled, shape,
+    LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted, instant, named, placed, settled, shape,
+    shutter,
 };
-use crate::support::designs::{DESIGNS, design};
+use crate::support::families::{
+    DESIGNS, FAMILIES, aimed, design, hard_openness, hard_times, random_hard, random_typical,
+};
 use crate::support::oracle::{Curve, Dd, Exact, Points, exp2};
 use crate::support::promise::{
-    BACKWARD, BACKWARD_FLOOR, CDF_FLOOR, CDF_STEP_BACK, DENSITY_FLOOR, FORWARD, FORWARD_MEAN, Figures, Frame,
-    Questions, SCALAR, TICK, TYPICAL_TICK, VALUE,
+    BACKWARD, BACKWARD_FLOOR, CDF_FLOOR, CDF_STEP_BACK, DENSITY_FLOOR, FORWARD, FORWARD_MEAN, Figures, SCALAR, TICK,
+    TYPICAL_TICK, VALUE,
 };
+use crate::support::questions::{Frame, Questions, around, hard_us, neighbours};
 use crate::support::times;
 use shutter_curve::MAX_EVALUATIONS;
 
@@ -111,16 +112,15 @@ fn spread(n: u32) -> Vec<f32> {
 
 #[test]
 fn named_curves_and_cases() {
-    let (mut figures, mut means, named) = (Figures::default(), Vec::new(), named());
-    let named = named.iter().map(|one| (one.curve, one.kind == Kind::Typical));
-    for (turn, (curve, is_typical)) in named.chain(CASES.iter().map(|case| (case.curve(), false))).enumerate() {
-        ask(&mut figures, &curve, true, turn, is_typical);
-        let exact = Exact::new(&curve);
+    let (mut figures, mut means) = (Figures::default(), Vec::new());
+    let curves =
+        ["typical", "hard", "case"].into_iter().flat_map(|kind| named(kind).into_iter().map(move |it| (kind, it)));
+    for (turn, (kind, one)) in curves.enumerate() {
+        let is_typical = kind == "typical";
+        ask(&mut figures, &one.curve, true, turn, is_typical);
+        let exact = Exact::new(&one.curve);
         let (spread, fresh) = if is_typical { (spread(20_000), 1000) } else { (Vec::new(), 2000) };
-        let mut us: Vec<f32> = spread.into_iter().chain(hard_us(&exact, 1, fresh)).collect();
-        // Next to 1 many are the same `f32`, which would weigh too much in the mean.
-        us.sort_by(f32::total_cmp);
-        us.dedup();
+        let us = spread.into_iter().chain(hard_us(&exact, 1, fresh)).collect();
         let (questions, mut of_one) = (Questions::fractions(&exact, us, is_typical), Figures::default());
         of_one.asked::<8>(&exact, &questions);
         of_one.asked::<0>(&exact, &questions);
@@ -166,7 +166,7 @@ fn designs() {
         let mut figures = Figures::default();
         for index in 0..designs * times() {
             let curve = design(family, index);
-            ask(&mut figures, &curve, family == 3, index as usize, is_typical(&curve));
+            ask(&mut figures, &curve, false, index as usize, is_typical(&curve));
         }
         report(name, &figures);
     }
@@ -219,123 +219,47 @@ fn octaves_at_their_limit() {
 /// Curves on which a version failed, or that an attack had in the source's rules, as far as they are accepted.
 #[test]
 fn faults() {
-    let mut figures = Figures::default();
-    let smooth = |start: f32, end: f32, [from, to]: [f32; 2]| {
-        let handle = (end - start) / 4.0;
-        [(start, from), (start + handle, from), (end - handle, to), (end, to)]
-    };
-    let join =
-        [[(-0.25, 0.0), (-0.16, 0.0), (-0.09, 1.0), (0.0, 1.0)], [(0.0, 1.0), (0.095, 1.0), (0.155, 0.0), (0.25, 0.0)]];
-    let [least, unit] = [exp2(-24) as f32, exp2(-26) as f32];
-    let mut curves = vec![
-        // Time stands nearly still at time 0.
-        Curve::shutter([(-1.0, 0.0), (0.875, 0.0), (-1.0, 1.0), (1.0, 1.0)], smooth(1.0, 2.0, [1.0, 0.0])),
-        // Many lengths from time 0.
-        Curve::shutter(
-            [(16.0, 0.23115787), (16.069315, 0.9636907), (16.188118, 0.94166076), (16.204382, 1.0)],
-            [(16.204382, 1.0), (16.933697, 0.4028296), (16.949995, 0.9828322), (17.0, 0.09975028)],
-        ),
-        // A closing ramp to time 0, of 2⁻²⁵ of the exposure: its cdf stepped back where its mass was not normalised.
-        Curve::shutter(instant(-1.338), [(-1.22e-7, 1.0), (-1.525e-8, 0.0), (-1.0675e-7, 0.0), (0.0, 1.0)]),
-        // Subnormal times.
-        Curve::shutter(instant(-1.1912527e-38), line((2.6020853e-19, 1.0), (8.6736174e-19, 0.0))),
-        Curve::shutter([(-6e-20, 0.0), (-4.6e-44, 0.24176656), (-4.6e-44, 0.6375081), (-1e-45, 1.0)], instant(1e-20)),
-        // The join at half of the light, and a plateau across time 0, each as short as it may be.
-        Curve::shutter(line((-1.0, 0.0), (-unit, 1.0)), line((-unit, 1.0), (least - unit, 0.0))),
-        Curve::shutter(line((-0.5, 0.0), (-1.75 * unit, 1.0)), line((0.75 * unit, 1.0), (0.5, 0.0))),
-    ];
-    curves.extend([1.0, 4e7, exp2(65) as f32].map(|scale| Curve::shutter(join[0], join[1]).scaled(scale)));
-    // The line, counted from either end.
-    for [open, close] in [[0.001, 0.9995], [0.3, 0.999], [0.0, 1.0], [0.002, 0.6]] {
-        curves.push(Curve::shutter(line((0.0, 0.0), (open, 1.0)), line((close, 1.0), (1.0, 0.0))));
-    }
-    // 1/2 to 1/1024 of the light, and some 2⁻²⁵ of that more: between the top of an octave and the join.
-    for k in 1..=10 {
-        let mut opening = smooth(-2.0, 0.0, [0.0, 1.0]);
-        opening[0].1 = exp2(-24) as f32;
-        curves.push(Curve::shutter(opening, smooth(0.0, 2.0 * exp2(k) as f32 - 2.0, [1.0, 0.0])));
-    }
-    // A fixed point lost the order of times, cdf or ticks here, at this fraction or time, or in the first pulses.
-    let late = [(554_069.0, 1.0), (554_069.0, 0.5), (554_069.5, 0.2), (554_069.5, 0.0)];
-    let end = |t| [(t, 0.0); 4];
-    for (opening, closing, u, t) in [
-        ([(0.0, 1.0), (5.4633017e-7, 0.0), (0.0, 0.0), (1.0006437, 0.0)], end(1.0006437), 0x2e859478, 0),
-        (
-            [(0.0, 2.3339666e-8), (0.33333334, 1.8899396e-11), (0.6666667, 0.0), (1.0, 1.0)],
-            late,
-            0x2e859478,
-            0x392cc304,
-        ),
-        (
-            [(-0.6501847, 1.9608464e-9), (0.2873153, 0.9999978), (-0.6501847, 0.093060754), (0.3498153, 0.03245785)],
-            end(0.3498153),
-            0x2e859478,
-            0xa7800000,
-        ),
-        ([(-1.0, 0.0), (-1e-17, 1.0), (-1e-17, 1.0), (-1e-17, 0.0)], end(-1e-17), 1, 0xa33877aa),
-        (
-            [(-6.0585044e-6, 0.9999999), (1e-45, 0.00044888206), (7.548051e13, 1.7811004e-5), (1.918309e16, 0.0)],
-            end(1.918309e16),
-            0x2bae3adf,
-            0,
-        ),
-        ([(-65536.125, 1.0), (-65535.938, 1.0), (-65536.0, 1.0), (-65535.0, 1.0)], end(-65535.0), 1, 0xc7800010),
-    ] {
-        curves.push(Curve::shutter(opening, closing));
-        let exact = Exact::new(&curves[curves.len() - 1]);
-        let [us, ts] = [neighbours(f32::from_bits(u), 1000).collect(), around(f32::from_bits(t), 1000).collect()];
-        let mut questions = Questions::new(&exact, us, ts, vec![Frame::new(&exact, 1 << 22, Some(0.9999999), 0, 9)]);
-        if opening[0].0 == -65536.125 {
-            questions.greatest = vec![1_907_010_622];
-        }
-        figures.asked::<8>(&exact, &questions);
-        figures.asked::<0>(&exact, &questions);
-    }
-    for (turn, curve) in curves.into_iter().enumerate() {
-        for curve in [curve, curve.mirrored()] {
+    let (mut figures, curves) = (Figures::default(), named("fault"));
+    let curve = |name: &str| curves.iter().find(|one| one.name.starts_with(name)).expect("its row").curve;
+    for (turn, one) in curves.iter().enumerate() {
+        for curve in [one.curve, one.curve.mirrored()] {
             ask(&mut figures, &accepted(curve), turn < 9, turn, false);
         }
     }
-    // Boxes in which the middle of two fractions is where the time since the start gains a last bit.
-    for (start, end) in [(-1.3730043, 2.5725152), (-1.7764826, 0.6210457), (-1.8631686, 2.4521976)] {
-        let ours = shutter::<8>(&Curve::shutter(instant(start), instant(end)));
-        let first = (exp2(-24) as f32).to_bits() - 200;
-        let values: Vec<f32> = (first..first + 400).map(|t| ours.cdf(f32::from_bits(t))).collect();
-        assert!(values.is_sorted(), "from {start} to {end}");
-    }
-    // Parts of frames: hardly any light precedes a closing ramp; the last of 2³¹ ticks; a first pulse next to the
-    // start.
-    let third = 1.0 / 3.0;
-    let late = Curve::shutter(
-        [(0.0, 0.0), (3e-5, 0.3), (6e-5, 0.6), (1e-4, 1.0)],
-        [(1e-4, 1.0), (0.33, 0.0), (0.66, 0.0), (1.0, 0.0)],
-    );
-    let last = Curve::shutter([(-1.0, 0.0), (-1.0, 1.472065e-5), (-1.0, 1.768388e-5), (0.0, 1.0)], instant(0.16237123));
-    let first = Curve::shutter([(0.0, 0.0), (third, 0.0), (2.0 * third, 0.0), (1.0, 1.0)], instant(1.0));
-    let all = 1 << 22;
-    for (curve, n, duty, at, count, hz) in [
-        (late, all / 4, None, all / 4 - 2000, 2000, 1 << 31),
-        (late, all, None, all - 2000, 2000, 1 << 31),
-        (late, all, None, all - 2000, 2000, 1 << 24),
-        (last, all, None, all - 30, 30, 1_847_502_402),
-        (first, all - 1, Some(1.0 - f32::EPSILON / 2.0), 0, 1, 2_147_483_448),
-        (first, 1_000_007, Some(1.0 - f32::EPSILON), 0, 1, 2_147_483_448),
+    // Where a fixed point lost the order of times, cdf or ticks: at this fraction or time, or in the first pulses.
+    for (name, u, t, hz) in [
+        ("steps back: 1", 0x2e859478, 0, None),
+        ("steps back: 2", 0x2e859478, 0x392cc304, None),
+        ("steps back: 3", 0x2e859478, 0xa7800000, None),
+        ("steps back: 4", 1, 0xa33877aa, None),
+        ("steps back: 5", 0x2bae3adf, 0, None),
+        ("steps back: 6", 1, 0xc7800010, Some(1_907_010_622)),
     ] {
-        let exact = Exact::new(&curve);
-        let frames = vec![Frame::new(&exact, n, duty, at, count)];
-        let mut questions = Questions::new(&exact, vec![], vec![], frames);
+        let exact = Exact::new(&curve(name));
+        let [us, ts] = [neighbours(f32::from_bits(u), 1000).collect(), around(f32::from_bits(t), 1000).collect()];
+        let mut questions = Questions::new(&exact, us, ts, vec![Frame::new(&exact, 1 << 22, Some(0.9999999), 0, 9)]);
+        questions.greatest.extend(hz);
+        figures.asked::<8>(&exact, &questions);
+        figures.asked::<0>(&exact, &questions);
+    }
+    let all = 1 << 22;
+    for (name, n, duty, at, count, hz) in [
+        ("late", all / 4, None, all / 4 - 2000, 2000, 1 << 31),
+        ("late", all, None, all - 2000, 2000, 1 << 31),
+        ("late", all, None, all - 2000, 2000, 1 << 24),
+        ("last", all, None, all - 30, 30, 1_847_502_402),
+        ("first", all - 1, Some(1.0 - f32::EPSILON / 2.0), 0, 1, 2_147_483_448),
+        ("first", 1_000_007, Some(1.0 - f32::EPSILON), 0, 1, 2_147_483_448),
+    ] {
+        let exact = Exact::new(&curve(name));
+        let mut questions = Questions::new(&exact, vec![], vec![], vec![Frame::new(&exact, n, duty, at, count)]);
         questions.greatest = vec![hz];
         figures.asked::<8>(&exact, &questions);
     }
-    // The most typical curves that there are, and more than 0.6 ulp wrong.
-    let ramp = smooth(0.0, 10.0, [0.0, 1.0]);
-    for (curve, u) in [
-        (Curve::shutter(ramp, smooth(10.0, 20.0, [1.0, 0.0])), 10.0 / 39.0),
-        (Curve::shutter(instant(0.0), line((1.0, 1.0), (19.0, 0.0))), 0.5),
-    ] {
-        let exact = Exact::new(&curve);
-        let us = neighbours(u, 20_000).collect();
-        figures.asked::<8>(&exact, &Questions::fractions(&exact, us, true));
+    // More than 0.6 ulp wrong, on the most typical curves that there are.
+    for (name, u) in [("typical: joined", 10.0 / 39.0), ("typical: a closing", 0.5)] {
+        let exact = Exact::new(&curve(name));
+        figures.asked::<8>(&exact, &Questions::fractions(&exact, neighbours(u, 20_000).collect(), true));
     }
     report("faults", &figures);
 }

@@ -2,7 +2,8 @@
 
 use crate::support::curves::{Rng, is_valid, verdict};
 use crate::support::oracle::{Curve, Exact, Points, exp2};
-use crate::support::promise::{Figures, Questions};
+use crate::support::promise::Figures;
+use crate::support::questions::Questions;
 use crate::support::times;
 use shutter_curve::{CubicBezier, CurveError, Hz, ShutterCurve};
 

@@ -3,9 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::support::aimed::{FAMILIES, aimed};
-use crate::support::curves::{LEAST_EXPOSURE, instant, is_valid, line, random_typical, verdict};
-use crate::support::designs::{DESIGNS, design};
+use crate::support::curves::{LEAST_EXPOSURE, instant, is_valid, line, named, verdict};
+use crate::support::families::{DESIGNS, FAMILIES, aimed, design, random_typical};
 use crate::support::oracle::{Curve, Exact, Points, exp2};
 use CurveError as E;
 use Part::{Closing, Opening, Plateau};
@@ -29,38 +28,11 @@ fn judged(curve: &Curve) -> Result<(), CurveError> {
 }
 
 /// Plain curves, on the edge of a rule or where a version failed; then some of each family.
-fn accepted(index: u64) -> Option<Curve> {
-    let least = exp2(-24) as f32;
-    let smooth = |from: f32, to: f32| [(from, 0.0), (from, 0.3), (to, 0.6), (to, 1.0)];
-    let crossed = |first: f32, second: f32| [(0.0, 0.0), (first, 0.0), (second, 1.0), (1.0, 1.0)];
-    let plain = [
-        Curve::shutter(instant(0.0), instant(1.0)),
-        Curve::shutter(instant(-0.25), instant(0.75)),
-        Curve::shutter(instant(65_535.0), instant(65_536.0)),
-        Curve::shutter(instant(1000.0), instant(1000.1)),
-        Curve::shutter(instant(0.0), instant(exp2(64) as f32)),
-        Curve::shutter(instant(0.0), instant(exp2(-64) as f32)),
-        Curve::single(line((0.0, exp2(-20) as f32), (1.0, exp2(-20) as f32))),
-        Curve::single(line((-3.3, 0.25), (-3.2, 0.5))),
-        Curve::shutter(line((0.0, 0.0), (0.25, 1.0)), line((0.75, 1.0), (1.0, 0.0))),
-        Curve::shutter(smooth(-1.0, 0.0), line((0.0, 1.0), (1.0, 0.0))),
-        Curve::shutter(crossed(0.9375, 0.0), instant(1.0)),
-        Curve::shutter(crossed(1.0, 0.0625), instant(2.0)),
-        Curve::shutter(crossed(0.96875, 0.03125), line((1.0, 1.0), (2.0, 0.0))),
-        Curve::shutter(line((0.0, 0.0), (least, 1.0)), line((0.5, 1.0), (1.0, 0.0))),
-        Curve::shutter(line((-1.0, 0.0), (0.0, 1.0)), line((least, 1.0), (0.75, 0.0))),
-        // Too short by 2⁻¹⁰¹, which an `f64` beside 2⁻²⁴ does not have.
-        Curve::shutter(instant(-1.0), line((exp2(-101) as f32, 1.0), (least, 0.0))),
-    ];
-    let families = FAMILIES.len() as u64;
-    let designs = DESIGNS.len() as u64;
-    match index.checked_sub(plain.len() as u64) {
-        None => Some(plain[index as usize]),
-        Some(i @ 0..20) => Some(random_typical(1, i)),
-        Some(i @ 20..220) => Some(aimed((i % families) as usize, 1, i / families)),
-        Some(i @ 220..300) => Some(design((i % designs) as usize, i / designs)),
-        Some(_) => None,
-    }
+fn accepted() -> impl Iterator<Item = Curve> {
+    let aimed = (0..200).map(|i| aimed(i % FAMILIES.len(), 1, (i / FAMILIES.len()) as u64));
+    let designs = (0..80).map(|i| design(i % DESIGNS.len(), (i / DESIGNS.len()) as u64));
+    let plain = named("edge").into_iter().map(|one| one.curve);
+    plain.chain((0..20).map(|i| random_typical(1, i))).chain(aimed).chain(designs)
 }
 
 /// Each number of a curve, alone or with those that equal it, moved to the last that is accepted and to the next one.
@@ -69,7 +41,7 @@ fn each_rule_to_the_adjacent_f32() {
     // All numbers in order: a positive one by its bits.
     let number = |place: i32| f32::from_bits(place.unsigned_abs()).copysign(place as f32);
     let mut seen = BTreeMap::new();
-    for curve in (0..).map_while(accepted) {
+    for curve in accepted() {
         assert_eq!(judged(&curve), Ok(()), "{curve:?}");
         for (which, all) in (0..16).flat_map(|which| [(which, false), (which, true)]) {
             let one = |curve: &Curve| {

@@ -1,8 +1,8 @@
 //! Triggers and pulses: ticks, schedules, iterators, frames without a search. `promises.rs` judges the ticks
 //! themselves.
 
-use crate::support::cases::shutter;
-use crate::support::curves::{Kind, line, named, random_hard, random_typical};
+use crate::support::curves::{line, named, shutter};
+use crate::support::families::{random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact};
 use crate::support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
 use shutter_curve::{CubicBezier, Hz, Pulse, ScheduleError, ShutterCurve, TimedCurve, expect};
@@ -145,8 +145,7 @@ fn iterators_from_either_end_and_anywhere() {
 /// How many triggers need no search; that none of them does, `promises.rs` holds.
 #[test]
 fn direct_frames_are_large() {
-    let typical = named().into_iter().filter(|one| one.kind == Kind::Typical);
-    for one in typical {
+    for one in named("typical") {
         let curve = shutter::<8>(&one.curve);
         let most = curve.direct_triggers();
         println!("{}: {most}", one.name);
@@ -165,38 +164,14 @@ fn direct_frames_are_large() {
     assert!(none < 200, "{none}");
 }
 
-/// Curves on which octaves once had no certificate, or a look-up took the wrong ramp, with the least number of triggers
-/// that need no search.
+/// Curves on which octaves once had no certificate, or a look-up took the wrong ramp.
 #[test]
 fn these_need_no_search() {
-    let mut curves = Vec::new();
-    // The opening ramp has exactly half of the light and a plateau follows: ticks count 1/2 from the later end.
-    for (open, closes) in [(1.0, 2.0), (2.0, 0.0), (0.5, 3.0)] {
-        let opening = [(0.0, 0.0), (1.0, 0.0), (3.0, 1.0), (4.0, 1.0)];
-        let at = |part: f32, f| (4.0 + open + closes * part, f);
-        curves.push((64, Curve::shutter(opening, [at(0.0, 1.0), at(0.25, 1.0), at(0.75, 0.0), at(1.0, 0.0)])));
-    }
-    // A tent has no plateau at all.
-    for p in [0.3625, 0.4, 0.45, 0.6] {
-        curves.push((64, Curve::shutter(line((0.0, 0.0), (p, 1.0)), line((p, 1.0), (1.0, 0.0)))));
-    }
-    // Where an octave ends at time 0, a polynomial is judged by an ulp of the curve's greater end: one of the time
-    // itself would refuse any.
-    for name in ["raised_cosine", "triangle"] {
-        let curve = named().into_iter().find(|one| one.name == name).expect("its name").curve;
-        let middle = 0.5 * (curve.open_start() + curve.close_end());
-        let moved = |points: [(f32, f32); 4]| points.map(|(t, f)| (t - middle, f));
-        curves.push((64, Curve::shutter(moved(curve.opening), moved(curve.closing))));
-    }
-    // A liquid-crystal shutter closes in two bends: with 49 points alone an octave of it has no certificate.
-    let inner = [0.01, 0.6, 0.015, 1.0, 0.46, 0.1, 0.6, 0.0];
-    let (opening, closing) = CubicBezier::shutteropening([0.0, 0.0003, 0.003, 0.008], inner);
-    curves.push((255, Curve::shutter(opening.points(), closing.points())));
-    for (least, curve) in curves {
-        for curve in [curve, curve.mirrored()] {
-            let ours = shutter::<8>(&curve);
-            assert!(ours.direct_triggers() >= least, "{}: {curve:?}", ours.direct_triggers());
-            assert!((10..990).all(|i| ours.evaluations(i as f32 / 1000.0).is_none()), "{curve:?}");
+    for one in named("direct") {
+        for curve in [one.curve, one.curve.mirrored()] {
+            let (ours, least) = (shutter::<8>(&curve), if one.name.ends_with("shutter") { 255 } else { 64 });
+            assert!(ours.direct_triggers() >= least, "{}: {}", ours.direct_triggers(), one.name);
+            assert!((10..990).all(|i| ours.evaluations(i as f32 / 1000.0).is_none()), "{}", one.name);
         }
     }
     // What the tests of searches go by: a search takes a step at least.
@@ -233,7 +208,8 @@ fn judge_filled<const OCTAVES: usize>(shutter: &ShutterCurve<OCTAVES>, n: u32, h
 #[test]
 fn a_filled_schedule_is_each_trigger_alone() {
     let random = (0..60).flat_map(|i| [random_typical(7, i), random_hard(7, i)]);
-    for curve in named().into_iter().map(|named| named.curve).chain(random) {
+    let curves = ["typical", "hard"].into_iter().flat_map(named).map(|one| one.curve);
+    for curve in curves.chain(random) {
         let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let (few, many) = (shutter::<8>(&curve), shutter::<64>(&curve));
         for n in [1, 2, 3, 5, 16, 63, 64, 100, 1000, 4097] {

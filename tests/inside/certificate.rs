@@ -2,8 +2,8 @@
 
 use crate::fixed::{WORD, fixed_down, power_of_two_f64};
 use crate::fraction::Side;
-use crate::inside::support::aimed::{FAMILIES, aimed};
-use crate::inside::support::curves::{Rng, named, random_hard, random_typical};
+use crate::inside::support::curves::{Rng, named};
+use crate::inside::support::families::{FAMILIES, aimed, random_hard, random_typical};
 use crate::inside::support::oracle::{Curve, Dd, Exact, ulp_f32};
 use crate::inside::support::times;
 use crate::octave::build::{build, range};
@@ -116,7 +116,7 @@ fn a_certificate_is_never_below_the_truth() {
         std::println!("{name}: {truth:?}");
         all += truth.octaves;
     };
-    judge("named", &mut named().into_iter().map(|named| named.curve));
+    judge("named", &mut ["typical", "hard"].into_iter().flat_map(named).map(|one| one.curve));
     judge("typical", &mut (0..200 * times).map(|i| random_typical(31, i)));
     judge("hard", &mut (0..200 * times).map(|i| random_hard(31, i)));
     // Joins so near to time 0 that a share of nearly all has too few bits to tell them.

@@ -1,12 +1,11 @@
 //! What tests and benchmarks share; each takes it in with `mod support`, the benchmarks by its path.
 #![allow(dead_code)] // Each user needs a part.
 
-pub mod aimed;
-pub mod cases;
 pub mod curves;
-pub mod designs;
+pub mod families;
 pub mod oracle;
 pub mod promise;
+pub mod questions;
 
 /// How many times as many random curves are tried: `TIMES=8` before a command, as CI has it.
 pub fn times() -> u64 {

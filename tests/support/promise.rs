@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 
 use shutter_curve::{Hz, MAX_EVALUATIONS, ShutterCurve};
 
-use super::aimed::{aimed_triggers, aimed_ts, aimed_us};
-use super::cases::shutter;
-use super::curves::{Rng, around, neighbours};
+use super::curves::{Rng, shutter};
 use super::oracle::{Curve, Dd, Exact, Near, exp2, ulp_f32};
+use super::questions::{Frame, Questions, around, neighbours};
 
 /// In ulp of u, from the least fraction of a frame on; below, in twice its ulp.
 pub const BACKWARD: f64 = 0.5;
@@ -39,8 +38,6 @@ pub const TYPICAL_TICK: f64 = 0.85;
 pub const TYPICAL_TICKS: f64 = (1 << 24) as f64;
 /// The most triggers in a frame.
 pub const MOST_TRIGGERS: u32 = 1 << 22;
-/// The rates of timers that a design is asked for, in ticks per unit of its time: plain ones, and primes.
-pub const RATES: [u32; 8] = [1, 1000, 48_000, 1_000_000, 7, 1009, 65_537, 999_983];
 /// Of the mass, for one u: as many as any search on a shutter is known to take. On a density that is dim at its later
 /// end only the limit holds.
 pub const EVALUATIONS: u32 = 12;
@@ -323,169 +320,6 @@ impl Figures {
 
 fn ours_values<const OCTAVES: usize>(curve: &ShutterCurve<OCTAVES>, t: f32) -> [f32; 3] {
     [curve.cdf(t), curve.pdf(t), curve.openness(t)]
-}
-
-/// What a curve is asked. The exact answers are found once; every `OCTAVES` is held against them.
-pub struct Questions<'a> {
-    /// In order, with the exact times.
-    us: Vec<(f32, Dd)>,
-    /// In order.
-    ts: Vec<(f32, Near<'a>)>,
-    frames: Vec<Frame>,
-    /// Of plain ones those in turn go with a frame; the greatest that are allowed go with each.
-    rates: Vec<u32>,
-    pub greatest: Vec<u32>,
-    /// Are the forward error and the tick's promised?
-    is_typical: bool,
-    /// How many neighbours are walked on either side.
-    walk: u32,
-}
-
-/// Some neighbours of a frame, with the fraction and the exact time since the start of the curve for each end.
-pub struct Frame {
-    n: u32,
-    /// None for triggers.
-    duty: Option<f32>,
-    first: u32,
-    /// Of triggers both are the same.
-    exact: Vec<[(Dd, Dd); 2]>,
-}
-
-impl Frame {
-    pub fn new(exact: &Exact, n: u32, duty: Option<f32>, first: u32, count: u32) -> Self {
-        let start = Dd::from(exact.curve().open_start());
-        let end = |i: u32, more: f64| {
-            let u = Dd::from(2.0 * f64::from(i) + 1.0) + Dd::from(more);
-            let u = u / Dd::from(2.0 * f64::from(n));
-            (u, exact.inverse_cdf_dd(u) - start)
-        };
-        let count = count.min(n - first.min(n));
-        let exact = (first..first + count)
-            .map(|i| match duty {
-                None => [end(i, 0.0); 2],
-                Some(duty) => [end(i, -f64::from(duty)), end(i, f64::from(duty))],
-            })
-            .collect();
-        Self { n, duty, first, exact }
-    }
-}
-
-impl<'a> Questions<'a> {
-    /// These fractions, times and frames, as far as they are on the curve.
-    pub fn new(exact: &'a Exact, mut us: Vec<f32>, mut ts: Vec<f32>, frames: Vec<Frame>) -> Self {
-        let [start, end] = [exact.curve().open_start(), exact.curve().close_end()];
-        let length = f64::from(end) - f64::from(start);
-        us.retain(|u| (0.0..=1.0).contains(u));
-        us.sort_by(f32::total_cmp);
-        ts.retain(|t| (start..=end).contains(t));
-        ts.sort_by(f32::total_cmp);
-        ts.dedup_by_key(|t| t.to_bits());
-        // What is allowed: up to 2^31 ticks.
-        let allowed = |hz: &u32| *hz > 0 && f64::from(*hz) * length <= exp2(31);
-        // A trace less, since f64 need not hold the length.
-        let greatest = [TYPICAL_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
-        Self {
-            us: us.into_iter().map(|u| (u, exact.inverse_cdf(u))).collect(),
-            ts: ts.into_iter().map(|t| (t, exact.near(t))).collect(),
-            frames,
-            rates: Vec::new(),
-            greatest: greatest.into_iter().filter(allowed).collect(),
-            is_typical: false,
-            walk: 0,
-        }
-    }
-
-    /// Those at which the curve is difficult, and some at random.
-    pub fn aimed(exact: &'a Exact, rng: &mut Rng) -> Self {
-        let mut frames = vec![[1, 0, 1], [2, 0, 2]];
-        let landmarks = exact.landmarks();
-        for n in [1 << 20, MOST_TRIGGERS - 1, MOST_TRIGGERS] {
-            let landmark = landmarks[rng.below(landmarks.len() as u64) as usize].hi;
-            let first = (f64::from(n) * landmark) as u32;
-            frames.push([n, first.saturating_sub(6), 12]);
-        }
-        frames.extend(aimed_triggers(exact, 400).into_iter().map(|[n, i]| [n, i, 1]));
-        let duties = [1.0, 1.0 - 0.5 * f32::EPSILON, 0.75, 0.3, 1e-3, 1e-20, 1e-45];
-        let frames = frames.into_iter().flat_map(|[n, first, count]| {
-            let duty = duties[rng.below(duties.len() as u64) as usize];
-            [None, Some(duty)].map(|duty| Frame::new(exact, n, duty, first, count))
-        });
-        let frames = frames.collect();
-        let (us, ts) = (aimed_us(exact, rng), aimed_ts(exact, rng));
-        let length = f64::from(exact.curve().close_end()) - f64::from(exact.curve().open_start());
-        let rates = Some((1000.0 / length) as u32).filter(|hz| *hz > 0).into_iter().collect();
-        Self { rates, walk: 20, ..Self::new(exact, us, ts, frames) }
-    }
-
-    /// These fractions alone.
-    pub fn fractions(exact: &'a Exact, us: Vec<f32>, is_typical: bool) -> Self {
-        Self { is_typical, ..Self::new(exact, us, Vec::new(), Vec::new()) }
-    }
-
-    /// Plain fractions, all small frames, and what lies next to the joins; and some rates and duties in turn.
-    pub fn plain(exact: &'a Exact, turn: usize, is_typical: bool) -> Self {
-        let curve = *exact.curve();
-        let mut us = Vec::new();
-        for m in 1..=64 {
-            us.extend((0..=m).flat_map(|k| neighbours(k as f32 / m as f32, 1)));
-        }
-        // Octaves end at eighths of a power of two; so does the least of them, and the line begins at a power.
-        for exponent in 1..=32 {
-            let power = exp2(-exponent) as f32;
-            let (next, top) = (neighbours(power, 2), neighbours(1.0 - power, 2));
-            us.extend(next.chain(top));
-            for eighths in 9..16 {
-                let end = 0.125 * eighths as f32 * power;
-                us.extend(neighbours(end, 1).chain(neighbours(1.0 - end, 1)));
-            }
-        }
-        for landmark in exact.landmarks() {
-            us.extend(neighbours(landmark.to_f32(), if landmark.hi > 0.0 { 40 } else { 0 }));
-        }
-        let [start, end] = [curve.open_start(), curve.close_end()];
-        let mut ts: Vec<f32> = (0..=20).map(|i| start + i as f32 * (end - start) / 20.0).collect();
-        for time in exact.landmark_times() {
-            ts.extend(around(time.to_f32(), 3));
-        }
-        us.sort_by(f32::total_cmp);
-        us.dedup();
-        let mut frames: Vec<_> = (1..=40).map(|n| Frame::new(exact, n, None, 0, n)).collect();
-        for duty in [0.1, 0.25, 0.5, 0.75, 1.0] {
-            let n = 1 + (turn as u32 * 7 + (duty * 20.0) as u32) % 40;
-            frames.push(Frame::new(exact, n, Some(duty), 0, n));
-            frames.push(Frame::new(exact, 12, Some(duty), 0, 12));
-        }
-        for place in exact.landmarks() {
-            // Triggers that follow each other as closely as they may.
-            for n in [1000, 1 << 20, MOST_TRIGGERS - 1, MOST_TRIGGERS] {
-                let first = (f64::from(n) * place.hi.clamp(0.0, 1.0)) as u32;
-                let first = first.saturating_sub(3);
-                frames.push(Frame::new(exact, n, None, first, 6));
-                frames.push(Frame::new(exact, n, Some(1.0), first, 5));
-            }
-        }
-        for join in exact.landmarks()[..2].iter().map(|u| u.hi.clamp(0.0, 1.0)) {
-            // Pulses of a few ticks, or less, around a trigger on the join, if there is one on it.
-            for n in 1..=64 {
-                let i = (f64::from(n) * join) as u32;
-                let middle = (f64::from(i) + 0.5) / f64::from(n);
-                if (middle - join).abs() < exp2(-20) && i < n {
-                    let one = |k: i32| Frame::new(exact, n, Some(exp2(-k) as f32), i, 1);
-                    frames.extend((4..40).map(one));
-                    break;
-                }
-            }
-            // A single pulse, whose ends are at any fraction: finer than `f32` are there.
-            let duty = (1.0 - 2.0 * join).abs() as f32;
-            let around = neighbours(duty, 40).filter(|duty| *duty > 0.0);
-            frames.extend(around.map(|duty| Frame::new(exact, 1, Some(duty), 0, 1)));
-        }
-        let length = f64::from(end) - f64::from(start);
-        let mut rates = RATES;
-        rates.rotate_left(turn % RATES.len());
-        let rates = rates.into_iter().filter(|hz| f64::from(*hz) * length <= exp2(31)).collect();
-        Self { rates, is_typical, walk: 100, ..Self::new(exact, us, ts, frames) }
-    }
 }
 
 /// How far a tick is from the exact time of the fraction `u`, once so many ulp of the lesser of it and its rest are

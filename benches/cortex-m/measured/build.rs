@@ -2,9 +2,9 @@
 
 use std::{env, fmt::Write, fs, path::PathBuf};
 
-use support::cases::CASES;
-use support::curves::{Kind, hard_us, named};
+use support::curves::named;
 use support::oracle::{Curve, Exact};
+use support::questions::hard_us;
 
 #[path = "../../../tests/support/mod.rs"]
 mod support;
@@ -17,9 +17,9 @@ fn main() {
         println!("cargo:rustc-cfg=bare");
     }
 
-    let cases = CASES.iter().map(|case| (case.name, false, case.curve()));
-    let data = named().into_iter().map(|c| (c.name, c.kind == Kind::Typical, c.curve));
-    let mut curves: Vec<_> = data.chain(cases).collect();
+    let kinds = ["typical", "hard", "case"].into_iter();
+    let mut curves: Vec<_> =
+        kinds.flat_map(|kind| named(kind).into_iter().map(move |c| (c.name, kind == "typical", c.curve))).collect();
     curves.sort_by_key(|(name, is_typical, _)| {
         (FIRST.iter().position(|first| first == name).unwrap_or(FIRST.len()), !is_typical)
     });

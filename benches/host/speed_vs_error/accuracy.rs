@@ -1,11 +1,11 @@
 //! The error of every method.
 
 use crate::methods::{Inverse, METHODS, Method, curve};
-use crate::support::aimed::{FAMILIES, aimed, aimed_us};
-use crate::support::cases::{CASES, Case};
-use crate::support::curves::{Kind, Rng, hard_us, named, random_typical};
+use crate::support::curves::{Rng, named};
+use crate::support::families::{FAMILIES, aimed, random_typical};
 use crate::support::oracle::{Curve, Exact, rounding_cell};
 use crate::support::promise::LEAST_FRACTION;
+use crate::support::questions::{aimed_us, hard_us};
 
 const SEED: u64 = 4;
 
@@ -27,9 +27,8 @@ pub struct Errors {
 
 /// The named typical curves, and random ones.
 pub fn curves(random: u64) -> Vec<Curve> {
-    let named = named().into_iter().filter(|named| named.kind == Kind::Typical);
     let random = (0..random).map(|i| random_typical(SEED, i));
-    named.map(|named| named.curve).chain(random).collect()
+    named("typical").into_iter().map(|one| one.curve).chain(random).collect()
 }
 
 fn length(curve: &Curve) -> f64 {
@@ -99,11 +98,12 @@ pub fn of_triggers(method: &Method) -> Option<f64> {
 
 /// The hard cases first, and then curves that meet difficulties exactly.
 fn on_hard_curves(count: usize, all: &mut [Errors]) {
+    let cases = named("case");
     for i in 0..count {
-        let curve = CASES.get(i).map_or_else(|| aimed(i % FAMILIES.len(), 1, i as u64), Case::curve);
+        let curve = cases.get(i).map_or_else(|| aimed(i % FAMILIES.len(), 1, i as u64), |case| case.curve);
         let exact = Exact::new(&curve);
         let rng = &mut Rng::new(1, i as u64);
-        let mut us = if i < CASES.len() { hard_us(&exact, SEED, 400) } else { aimed_us(&exact, rng) };
+        let mut us = if i < cases.len() { hard_us(&exact, SEED, 400) } else { aimed_us(&exact, rng) };
         us.retain(|u| *u == 0.0 || *u >= LEAST_FRACTION);
         let truths: Vec<_> = us.iter().map(|u| exact.inverse_cdf(*u).hi).collect();
         for (method, errors) in METHODS.iter().zip(&mut *all) {

@@ -4,11 +4,17 @@
 use rayon::prelude::*;
 use shutter_curve::ShutterCurve;
 
-use crate::support::cases::{CASES, DIM, shutter};
+use crate::support::curves::{named, shutter};
 use crate::support::oracle::{Curve, Exact, ulp_f32};
 use crate::support::promise::{CDF_FLOOR, DENSITY_FLOOR, LEAST_FRACTION};
 
-const CURVES: [&str; 5] = ["ends of order p^6", "handles cross by 15/16", "a vertical step", "times from -1 to 1", DIM];
+const CURVES: [&str; 5] = [
+    "ends of order p^6",
+    "handles cross by 15/16",
+    "a vertical step",
+    "times from -1 to 1",
+    "a density of the least exposure",
+];
 
 /// A prime: of so many answers the oracle judges one.
 const JUDGED: i64 = 65_537;
@@ -31,8 +37,8 @@ fn backward(exact: &Exact, u: f32, t: f32) -> f64 {
 /// Prints a line for each sweep. An openness may fall.
 pub fn every_f32() {
     for (function, name) in FUNCTIONS.iter().flat_map(|function| CURVES.map(|name| (function, name))) {
-        let case = CASES.iter().find(|case| case.name == name).expect("a case");
-        let [out_of_range, falls, error] = sweep(function, &case.curve());
+        let case = named("case").into_iter().find(|case| case.name == name).expect("a case");
+        let [out_of_range, falls, error] = sweep(function, &case.curve);
         println!("{} of {name}: {out_of_range} out of range, {falls} falls, error {error:.3} ulp", function.0);
     }
 }

@@ -5,8 +5,7 @@ use std::hint::black_box;
 use chart::plotters::style::RGBColor;
 use chart::{BLUE, GREY, VERMILION};
 
-use crate::support::cases::shutter;
-use crate::support::curves::{line, named};
+use crate::support::curves::{line, named, shutter};
 use crate::support::oracle::{Curve, Points};
 use baseline::{InverseTable, NearerEnd, StraightRamps};
 
@@ -55,7 +54,7 @@ impl Method {
 
 /// One of the tests' curves.
 pub fn curve(name: &str) -> Curve {
-    named().into_iter().find(|named| named.name == name).expect("the reference data have it").curve
+    named("typical").into_iter().find(|named| named.name == name).expect("the reference data have it").curve
 }
 
 /// No call is left out, or made before the one ahead of it.

@@ -87,7 +87,7 @@ the nearer end, NaN as the start. Square roots are judged on the {straight} stra
 
 - *ulp(t)*: the forward error, as in [accuracy.md](../accuracy.md)
 - *hard curves*: error as a share of the interval, beyond the rounding of the time to an `f32`, on {hard} curves that
-  are hard or meet difficulties exactly (`tests/support/cases.rs`, `aimed.rs`), at some 100 hard `u` each
+  are hard or meet difficulties exactly (`tests/data/curves.csv`, `families.rs`), at some 100 hard `u` each
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
 - *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the tests' leaf shutter
 ",

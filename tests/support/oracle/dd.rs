@@ -1,8 +1,7 @@
 //! Double-double numbers: the unevaluated sum of two `f64`, 106 bits of significand.
 //!
-//! The classic algorithms (Dekker 1971; Hida, Li and Bailey 2001), in plain additions and products:
-//! they hold for round-to-nearest as long as nothing overflows and no low part becomes subnormal,
-//! and the magnitudes of an oracle for `f32` stay far from both.
+//! The classic algorithms (Dekker 1971; Hida, Li and Bailey 2001): they hold for round-to-nearest as long as nothing
+//! overflows and no low part becomes subnormal, and the magnitudes of an oracle for `f32` stay far from both.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -28,22 +27,6 @@ fn fast_two_sum(a: f64, b: f64) -> Dd {
     Dd { hi, lo: b - (hi - a) }
 }
 
-/// `a` in two halves of at most 26 bits, whose products with other halves are exact.
-#[inline(always)]
-fn split(a: f64) -> (f64, f64) {
-    let scaled = 134_217_729.0 * a; // 2²⁷ + 1
-    let high = scaled - (scaled - a);
-    (high, a - high)
-}
-
-/// `a b` exactly. Without `mul_add`, which is a slow library call where the build assumes no FMA.
-#[inline(always)]
-fn two_product(a: f64, b: f64) -> Dd {
-    let hi = a * b;
-    let ((a1, a0), (b1, b0)) = (split(a), split(b));
-    Dd { hi, lo: ((a1 * b1 - hi) + a1 * b0 + a0 * b1) + a0 * b0 }
-}
-
 impl Dd {
     pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
     pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
@@ -56,10 +39,6 @@ impl Dd {
         let other = if rest > 0.0 { near.next_up() } else { near.next_down() };
         let tie = rest != 0.0 && rest == other as f64 - self.hi;
         if tie && self.lo * rest > 0.0 { other } else { near }
-    }
-
-    pub fn abs(self) -> Self {
-        if self.hi < 0.0 { -self } else { self }
     }
 
     pub fn min(self, other: Self) -> Self {
@@ -75,29 +54,12 @@ impl Dd {
     pub fn scale(self, power: f64) -> Self {
         Self { hi: self.hi * power, lo: self.lo * power }
     }
-
-    pub fn sqrt(self) -> Self {
-        if self.hi <= 0.0 {
-            return Self::ZERO;
-        }
-        // One Newton step doubles the 53 good bits of the seed.
-        let seed = self.hi.sqrt();
-        let rest = self - two_product(seed, seed);
-        two_sum(seed, rest.hi / (2.0 * seed))
-    }
 }
 
-impl From<f64> for Dd {
+impl<T: Into<f64>> From<T> for Dd {
     #[inline(always)]
-    fn from(hi: f64) -> Self {
-        Self { hi, lo: 0.0 }
-    }
-}
-
-impl From<f32> for Dd {
-    #[inline(always)]
-    fn from(x: f32) -> Self {
-        Self { hi: x as f64, lo: 0.0 }
+    fn from(x: T) -> Self {
+        Self { hi: x.into(), lo: 0.0 }
     }
 }
 
@@ -109,51 +71,46 @@ impl Neg for Dd {
     }
 }
 
-impl Add for Dd {
+impl<T: Into<Self>> Add<T> for Dd {
     type Output = Self;
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
+    fn add(self, other: T) -> Self {
         // Both parts in full: relative accuracy even where the high parts cancel.
+        let other = other.into();
         let (high, low) = (two_sum(self.hi, other.hi), two_sum(self.lo, other.lo));
         let sum = fast_two_sum(high.hi, high.lo + low.hi);
         fast_two_sum(sum.hi, sum.lo + low.lo)
     }
 }
 
-impl Sub for Dd {
+impl<T: Into<Self>> Sub<T> for Dd {
     type Output = Self;
     #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self + -other
+    fn sub(self, other: T) -> Self {
+        self + -other.into()
     }
 }
 
-impl Mul for Dd {
+impl<T: Into<Self>> Mul<T> for Dd {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        let product = two_product(self.hi, other.hi);
-        fast_two_sum(product.hi, product.lo + (self.hi * other.lo + self.lo * other.hi))
+    fn mul(self, other: T) -> Self {
+        let other = other.into();
+        let hi = self.hi * other.hi;
+        let lo = self.hi.mul_add(other.hi, -hi);
+        fast_two_sum(hi, lo + (self.hi * other.lo + self.lo * other.hi))
     }
 }
 
-impl Mul<f64> for Dd {
+impl<T: Into<Self>> Div<T> for Dd {
     type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: f64) -> Self {
-        let product = two_product(self.hi, other);
-        fast_two_sum(product.hi, product.lo + self.lo * other)
-    }
-}
-
-impl Div for Dd {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
+    fn div(self, other: T) -> Self {
+        let other = other.into();
         let first = self.hi / other.hi;
         let rest = self - other * first;
         let second = rest.hi / other.hi;
         let third = (rest - other * second).hi / other.hi;
-        two_sum(first, second) + Self::from(third)
+        two_sum(first, second) + third
     }
 }
 

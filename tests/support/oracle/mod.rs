@@ -72,17 +72,16 @@ impl<const N: usize> Poly<N> {
         self.c.iter().rev().fold(Dd::ZERO, |sum, &c| (sum + c) * x)
     }
 
-    /// In `f64`: the value, the slope and half the curvature.
+    /// In `f64`: the value and the slope.
     #[inline]
-    fn approx(&self, x: f64) -> [f64; 3] {
-        let [mut value, mut slope, mut bend] = [0.0; 3];
+    fn approx(&self, x: f64) -> [f64; 2] {
+        let [mut value, mut slope] = [0.0; 2];
         for c in self.c.iter().rev() {
-            bend = bend * x + slope;
             slope = slope * x + value;
             value = value * x + c.hi;
         }
         // The sums so far are those of value / x.
-        [value * x, slope * x + value, bend * x + slope]
+        [value * x, slope * x + value]
     }
 
     /// A bound on the rounding error of [`at`](Self::at).
@@ -96,34 +95,27 @@ impl<const N: usize> Poly<N> {
         if target.hi <= 0.0 {
             return Dd::ZERO;
         }
-        // The octave of x, which is rarely a low one, ...
-        let is_below = |exponent| self.approx(exp2(exponent))[0] < target.hi;
-        let (mut below, mut above) = (-1, 0);
-        while below > -256 && !is_below(below) {
-            (below, above) = (2 * below, below);
-        }
-        while above - below > 1 {
+        // In `f64`, by halves of what its bits count, as x is rarely of a low power of two; ...
+        let (mut below, mut above) = (exp2(-256).to_bits(), 1f64.to_bits());
+        while above - below > 1 << 30 {
             let middle = (below + above) / 2;
-            *(if is_below(middle) { &mut below } else { &mut above }) = middle;
+            let is_below = self.approx(f64::from_bits(middle))[0] < target.hi;
+            *(if is_below { &mut below } else { &mut above }) = middle;
         }
-        // ... then Halley's steps inside a bracket, which starts farther out: rounding may have misled the octave.
-        let (mut low, mut high) = (Dd::from(exp2(below - 1)), Dd::from(exp2(above + 1).min(1.0)));
-        let mut x = Dd::from(0.75 * exp2(above));
+        // ... then Newton's steps inside a bracket of all: rounding may have misled the halves.
+        let (mut low, mut high, mut x) = (Dd::ZERO, Dd::ONE, Dd::from(f64::from_bits(above)));
         for iteration in 0..400 {
             let rest = target - self.at(x);
             if rest.hi == 0.0 || iteration > 8 && rest.hi.abs() <= self.noise(x.hi) {
                 break;
             }
             *(if rest.hi > 0.0 { &mut low } else { &mut high }) = x;
-            let [_, slope, bend] = self.approx(x.hi);
-            let step = rest.hi * slope / (slope * slope + rest.hi * bend);
+            let step = rest.hi / self.approx(x.hi)[1];
             let next = x + Dd::from(step);
-            // More than the step leaves: what Newton's would, and its own rounding.
-            let left = (bend * step / slope).abs().max(2.0 * f64::EPSILON) * step.abs();
-            let is_inside = slope > 0.0 && next > low && next < high;
+            let is_inside = next > low && next < high;
+            let is_last = is_inside && step.abs() <= exp2(-80) * x.hi || (high - low).hi <= exp2(-103) * x.hi;
             x = if is_inside { next } else { (low + high).scale(0.5) };
-            let size = exp2(-103) * x.hi;
-            if is_inside && left <= 16.0 * size || (high - low).hi <= size {
+            if is_last {
                 break;
             }
         }
