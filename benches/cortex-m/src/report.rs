@@ -19,26 +19,26 @@ pub fn write() -> Result {
     let page = format!(
         "# What it costs on a microcontroller
 
-Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times; `OCTAVES = 8` where no other number is named. *Soft*
+Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times; `OCTAVES = 8` if no other number is named. *Soft*
 collects a third of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps. *Worst* is the
 worst call found on the tests' hard curves, *direct* the worst without a search. A schedule has {TRIGGERS} triggers.
 
 {cycles}
 
-The first row calls by an opaque reference. In the second each curve is a `static`, as in firmware, and the worst is
-over typical curves.
+The first row calls by an opaque reference. In the second each curve is a `static`, as in firmware; its worst is over
+typical curves.
 
 Mean instructions of other cores, *soft* and *all ramp*, of square roots *trapezoid*:
 
 {instructions}
 
-[speed-vs-error.md](speed-vs-error.md) describes the other methods and their errors.
+[speed-vs-error.md](speed-vs-error.md) has the other methods and their errors.
 
 ## Building a curve at run time, flash and stack
 
-The compiler builds a `static` curve. Built on a microcontroller, *soft* takes the instructions in the first two rows,
-most of them in doubles, which all of these cores compute in software. Code is every function that a call ran, stack the
-most that it took. `.data` and `.bss` hold {statics} bytes.
+The compiler builds a `static` curve. On a microcontroller *soft* takes these instructions, most of them for doubles,
+which all of these cores compute in software. Code is every function that a call ran, stack the most that it took.
+`.data` and `.bss` hold {statics} bytes.
 
 {bytes}
 
@@ -47,11 +47,10 @@ most that it took. `.data` and `.bss` hold {statics} bytes.
 Made by `benches/cortex-m/run.sh --write-docs`, with
 {made_with}.
 
-A call counts from its first instruction to its return. QEMU counts *instructions* exactly: a Cortex-M33 and a
-riscv32imafc have an FPU, a Cortex-M0+ and a riscv32imc compute floats in software. *Cycles* are modelled, within 10 %
-at zero wait states, probably 1 to 4 % low ([how the model was chosen](tried.md#the-model-of-cycles)). Two wait states
-without a cache cost up to 1.4 times as much. A density that is dark at both ends may need more evaluations than the
-worst call here.
+A call counts from its first instruction to its return. QEMU counts *instructions* exactly; a Cortex-M0+ and a
+riscv32imc compute floats in software. *Cycles* are modelled, within 10 % at zero wait states, probably 1 to 4 % low
+([how the model was chosen](tried.md#the-model-of-cycles)). Two wait states without a cache cost up to 1.4 times as
+much. A density that is dark at both ends may need more evaluations than the worst call here.
 ",
         cycles = cycles(&m4f),
         instructions = instructions(&others.iter().collect::<Vec<_>>()),

@@ -72,24 +72,24 @@ branch on `u` is predicted. On another machine trust the ratios.
 
 ![Error against cost](frontier.svg)
 
-Full dots are the greatest error, rings the mean. [cost.md](cost.md) has the curves, and cycles and bytes.
+Full dots are the greatest error, rings the mean. [cost.md](cost.md) has the curves, cycles and bytes.
 
 The first three methods are this crate. *Newton, nearer end* is what one writes without it, with care: sextics from both
 ends of each ramp, in `f32` but built in `f64`, and Newton's steps inside a bracket. The table has exact entries at
-equally spaced `u`. Square roots, from the nearer end, are for straight ramps alone. `benches/baseline.rs` has them all.
+equally spaced `u`. Square roots are for straight ramps alone. `benches/baseline.rs` has them all.
 
 {table}
 
-Times are on *soft*, of square roots on *trapezoid*. Errors are the greatest on {curves} typical curves, by
-double-double arithmetic, at {samples} fractions each that a frame can have, from 2⁻²³ on: half of them uniform, a
-quarter towards either end by octaves, where tables and absolute tolerances fail. A time outside the interval counts as
-the nearer end, NaN as the start. Square roots are judged on the {straight} straight ones.
+Times are on *soft*, of square roots on *trapezoid*. Errors are the greatest on {curves} typical curves, of square
+roots on the {straight} straight ones, at {samples} fractions each from 2⁻²³ on, the least of a frame: half of them
+uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail. A time outside the interval
+counts as the nearer end, NaN as the start.
 
 - *ulp(t)*: the forward error, as in [accuracy.md](../accuracy.md)
 - *hard curves*: error as a share of the interval, beyond the rounding of the time to an `f32`, on {hard} curves that
   are hard or meet difficulties exactly (`tests/data/curves.csv`, `families.rs`), at some 100 hard `u` each
-- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
-- *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the tests' leaf shutter
+- *steps back*: of a million neighbouring `f32`, how many a greater `u` sends to an earlier time
+- *a leaf's triggers*: the same share, in frames of up to 64 on the tests' leaf shutter
 ",
         table = methods(measured),
         arch = std::env::consts::ARCH,
