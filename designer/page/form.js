@@ -1,6 +1,6 @@
 // The numbers: as people write them they become those of the scene, and stay as they are typed.
 
-import { $, watch, write } from './dom.js';
+import { $, label, watch, write } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { dial, parse } from './numbers.js';
 import {
@@ -22,10 +22,6 @@ export function startForm() {
   $('flashes').addEventListener('input', ({ target }) => setTriggers(STOPS[target.value], 'flashes'));
   $('flashes').addEventListener('change', seal);
 }
-
-/** A field's name, as it stands on the page. */
-export const label = (id) =>
-  id === 'fully_open' ? 'flashes while fully open' : $(id)?.labels[0].firstChild.data.trim().replace(/,$/, '') ?? id;
 
 // The number in a field of the form; an error says why there is none.
 function readField(id, unit) {

@@ -1,7 +1,7 @@
 // The handles of the graph: moved by mouse, finger and keys, each in its box.
 
 import { nothing, svg } from 'lit-html';
-import { $, atMost } from './dom.js';
+import { $, atMost, label } from './dom.js';
 import { change, model } from './model.js';
 import { INNER, TIMES, innerOf, short, tidy, timesOf, withInner, withTimes } from './scene.js';
 import { allowed } from './view.js';
@@ -17,9 +17,9 @@ const CROSS = 15 / 16;
 
 /** Within so many pixels of a round place, a handle snaps to it; handles that are nearer than that are in one place. */
 const MAGNET = 8, SAME = 4;
-const POINTS = ['first', 'second'].map((point) => `${point} control point`);
-const NAMES = ['starts to open at', 'fully open at', 'starts to close at', 'closed at'];
-for (const ramp of ['opening', 'closing']) NAMES.push(...POINTS.map((point) => `${ramp} ramp, ${point}`));
+
+const nameOf = (i) => i < 4 ? label(HANDLES[i])
+  : `${i < 6 ? 'opening' : 'closing'} ramp, ${i % 2 ? 'second' : 'first'} control point`;
 
 /** Where a handle is: [time in the scene's unit, openness]. */
 function placeOf(scene, i) {
@@ -167,7 +167,7 @@ export class Handles {
     const handle = (i) => {
       const [t, o] = places[i], [least, most] = limits(scene, i), isTime = i < 4;
       return svg`<g id="handle-${HANDLES[i]}" class="handle ${isTime ? 'time' : 'control'}" tabindex="0" role="slider"
-        aria-label=${NAMES[i]} aria-valuetext="${short(t)} ${scene.unit}${isTime ? '' : `, openness ${short(o)}`}"
+        aria-label=${nameOf(i)} aria-valuetext="${short(t)} ${scene.unit}${isTime ? '' : `, openness ${short(o)}`}"
         aria-valuenow=${short(t)} aria-valuemin=${short(least)} aria-valuemax=${short(most)}
         ?hidden=${!isThere[i]} transform=${isThere[i] ? `translate(${at[i]})` : nothing}
         @touchstart=${STILL} @pointerdown=${this.grab} @keydown=${(event) => this.key(event, i)}

@@ -186,24 +186,21 @@ export function lampOf({ flashes: { pulse, duty, fully_open } }) {
   return pulse !== null ? 'pulse' : duty !== null ? 'duty' : fully_open ? 'full' : '';
 }
 
+// Inner control points whose times are told otherwise: by what `of` makes of each, on a ramp from one time to another.
+const retold = (inner, times, of) =>
+  inner.map((x, i) => (i % 2 ? x : of(x, times[i < 4 ? 0 : 2], times[i < 4 ? 1 : 3], i)));
+
 /** The inner control points as parts of their own ramps. */
 function relative(inner, times) {
-  const length = times[3] - times[0];
-  return inner.map((x, i) => {
-    if (i % 2) return x;
-    const [from, to] = i < 4 ? times : times.slice(2);
-    return to > from ? (times[0] + x * length - from) / (to - from) : STRAIGHT[i];
-  });
+  const at = (x) => times[0] + x * (times[3] - times[0]);
+  return retold(inner, times, (x, from, to, i) => (to > from ? (at(x) - from) / (to - from) : STRAIGHT[i]));
 }
 
 /** Parts of ramps as fractions of the interval. */
 function placed(parts, times) {
   const length = times[3] - times[0];
-  return parts.map((x, i) => {
-    if (i % 2) return x;
-    const [from, to] = i < 4 ? times : times.slice(2);
-    return length > 0 ? tidy((from + x * (to - from) - times[0]) / length, 7) : 0;
-  });
+  const part = (x, from, to) => (length > 0 ? tidy((from + x * (to - from) - times[0]) / length, 7) : 0);
+  return retold(parts, times, part);
 }
 
 /** In a link, a key of both tables is that of the shutter, and the other's has a name of its own. */

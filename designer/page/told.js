@@ -2,9 +2,8 @@
 // seen wherever one is: what is wrong, computed or told, and which fields that is about.
 
 import { html, render } from 'lit-html';
-import { $, watch, write } from './dom.js';
+import { $, label, watch, write } from './dom.js';
 import { helps } from './export.js';
-import { label } from './form.js';
 import { go, model, tell } from './model.js';
 import { FIELDS, INNER, KINDS } from './scene.js';
 import { tellScene } from './studio.js';
@@ -33,11 +32,8 @@ function fieldsOf({ key = '', inner }) {
   return name === 'shutteropening' ? INNER.slice(...(inner ?? [])) : name === 'trigger_times' ? ['triggers'] : [name];
 }
 
-const PLACES = {
-  open_start: 'the start of opening', open_end: 'fully open', close_start: 'the start of closing', close_end: 'the end',
-};
 const keys = Object.keys(KINDS).filter((key) => key.includes('_') || key === 'duty');
-const NAMES = new RegExp(`\`?\\b(${keys.join('|')})\\b\`?`, 'g');
+const NAMES = new RegExp(`\`(\\w+)\`|\\b(${keys.join('|')})\\b`, 'g');
 
 // What a file says stands in quotes: `"trigger"`, a column's name.
 const QUOTED = /("[^"\n]*"|(?<!\w)'[^'\n]*'(?!\w))/;
@@ -46,7 +42,7 @@ const QUOTED = /("[^"\n]*"|(?<!\w)'[^'\n]*'(?!\w))/;
 export const inWords = (text) => text.split(QUOTED).map((part, i) => (i % 2 ? part : named(part))).join('');
 
 const named = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g, '')
-  .replace(NAMES, (_, key) => PLACES[key] ?? `“${label(key)}”`)
+  .replace(NAMES, (_, marked, key) => `“${label(marked ?? key)}”`)
   .replace(/(?<=\w)'(?=\w)/g, '’').replace(/\btrigger(s?)\b/g, (_, many) => (many ? 'flashes' : 'flash'));
 
 // What is wrong, once it is known in words.
