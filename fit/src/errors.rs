@@ -51,6 +51,11 @@ pub struct Results {
 }
 
 impl Results {
+    fn all(&mut self) -> impl Iterator<Item = &mut Measured> {
+        let Self { exposure, efficiency, start, parts, triggers } = self;
+        [exposure, efficiency, start].into_iter().chain(parts).chain(triggers)
+    }
+
     fn times(&mut self) -> impl Iterator<Item = &mut Measured> {
         self.triggers.iter_mut().chain([&mut self.start])
     }
@@ -119,29 +124,19 @@ impl Results {
 /// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by
 /// its Akaike weight, with its own variance and how far it lies from this one.
 pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
-    let chosen = OfKind::new(fits, kind).results(n);
+    let mut chosen = OfKind::new(fits, kind).results(n);
     let freer = &Kind::ALL[kind as usize..];
     let least = freer.iter().map(|k| fits.aic(*k)).fold(f64::INFINITY, f64::min);
     let weights = freer.iter().map(|k| (*k, (0.5 * (least - fits.aic(*k))).exp()));
     let sum: f64 = weights.clone().map(|(_, weight)| weight).sum();
-    let all: Vec<(f64, Results)> = weights
-        .filter(|(_, weight)| *weight > 1e-3 * sum)
-        .map(|(k, weight)| (weight / sum, if k == kind { chosen.clone() } else { OfKind::new(fits, k).results(n) }))
-        .collect();
-    let mut chosen = chosen;
-    let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
-        let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
-        to.error = all.iter().map(|(w, results)| w * variance(of(results))).sum::<f64>().sqrt();
-    };
-    widen(&mut chosen.exposure, &|results| results.exposure);
-    widen(&mut chosen.efficiency, &|results| results.efficiency);
-    widen(&mut chosen.start, &|results| results.start);
-    for (i, part) in chosen.parts.iter_mut().enumerate() {
-        widen(part, &|results| results.parts[i]);
+    let mut variances = vec![0.0; chosen.all().count()];
+    for (k, weight) in weights.filter(|(_, weight)| *weight > 1e-3 * sum) {
+        let mut other = if k == kind { chosen.clone() } else { OfKind::new(fits, k).results(n) };
+        for ((variance, to), of) in variances.iter_mut().zip(chosen.all()).zip(other.all()) {
+            *variance += weight / sum * (of.error.powi(2) + (of.value - to.value).powi(2));
+        }
     }
-    for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
-        widen(trigger, &|results| results.triggers[i]);
-    }
+    chosen.all().zip(variances).for_each(|(to, variance)| to.error = variance.sqrt());
     chosen.widened(fits, kind)
 }
 
