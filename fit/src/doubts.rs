@@ -7,11 +7,12 @@ use crate::curve::Exposure;
 use crate::frame::FrameFits;
 use crate::hum;
 use crate::lag;
-use crate::missed::{Parts, missed};
+use crate::missed::Parts;
 use crate::noise::mean;
 use crate::outcome::{Fit, From, Test};
+use crate::patterns::Noise;
 use crate::signal::{Kind, Signal};
-use crate::structure::{UNSEEN, Walk};
+use crate::structure::UNSEEN;
 use crate::trace::{Frame, Warning, least_step};
 
 /// A capacitor that is taken for a drift of this share of the light moves the triggers by a per mille.
@@ -133,9 +134,9 @@ fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
         let is_open = fits.exposure(fit.chosen).curve.end() > last.to;
         return is_open.then_some(Warning::CutTail { left: (last.mean - first.mean) / gain });
     };
-    let walk = Walk::new(&missed(fits, Kind::Free), &parts, fits.step)?;
+    let Noise { walk, .. } = Noise::new(fits, Kind::Free, &parts)?;
     let half = 0.5 * fits.step * parts.after.len() as f64;
-    let error = (2.0 * walk.power / half).sqrt().hypot(fits.rounding);
+    let error = (2.0 * walk / half).sqrt().hypot(fits.rounding);
     // As steep before as after is a drift.
     let same = (later - earlier) * parts.after.len() as f64 / parts.before.len() as f64;
     let falls = early - late > 5.0 * error && early - late > 2.0 * same.abs();
@@ -161,8 +162,8 @@ fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let [first, second, third, last] =
         [0, 1, 2, 3].map(|k| mean(after.start + k * quarter..after.start + (k + 1) * quarter) - dark);
     let flat = Parts { before, pulse, after: 0..0 };
-    let walk = Walk::new(&missed(fits, fit.chosen), &flat, fits.step)?;
-    let error = (walk.power / (fits.step * few.min(quarter) as f64)).sqrt().hypot(fits.rounding);
+    let Noise { walk, .. } = Noise::new(fits, fit.chosen, &flat)?;
+    let error = (walk / (fits.step * few.min(quarter) as f64)).sqrt().hypot(fits.rounding);
     let sinks = first > second && second > third && second - last > TAIL * error;
     let beyond = |bin: &Bin| amount(bin) - dark * bin.width();
     let seconds = fits.samples[after].iter().map(beyond).sum::<f64>() * fits.units.pulse;

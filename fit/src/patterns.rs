@@ -125,7 +125,7 @@ impl Pattern {
 
 /// Patterns of these shapes in what a kind's curve misses; none where there is too little dark.
 pub fn patterns(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape>) -> Vec<Pattern> {
-    let Some(noise) = Noise::new(fits, kind) else { return Vec::new() };
+    let Some(noise) = Noise::new(fits, kind, &Parts::new(fits, kind)) else { return Vec::new() };
     let (solution, bins) = (&fits.of(kind).solution, fits.bins());
     let (gain, exposure) = (solution.signal.gain, fits.exposure(kind));
     let movable = Movable::new(solution, bins, |_| true);
@@ -171,8 +171,11 @@ pub fn tail_end(fits: &FrameFits, kind: Kind) -> Option<f64> {
 }
 
 /// The noise's power at the slow end, as the dark shows it.
-struct Noise {
+pub struct Noise {
+    /// Of a sample, in the signal's unit.
     power: f64,
+    /// How fast its sums wander: their variance over a unit of time, as openness.
+    pub walk: f64,
     /// So many times as much of it is in full light.
     in_light: f64,
     /// By so many independent samples.
@@ -180,11 +183,11 @@ struct Noise {
 }
 
 impl Noise {
-    fn new(fits: &FrameFits, kind: Kind) -> Option<Self> {
-        let parts = Parts::new(fits, kind);
+    /// By these parts of what a kind's curve misses; none where there is too little dark.
+    pub fn new(fits: &FrameFits, kind: Kind, Parts { before, pulse, after }: &Parts) -> Option<Self> {
         let residuals = &fits.of(kind).residuals;
         // Each from its own level: what is behind the pulse may be a tail.
-        let dark = [parts.before, parts.after].map(|part| from_mean(&residuals[part])).concat();
+        let dark = [before, after].map(|part| from_mean(&residuals[part.clone()])).concat();
         if dark.len() < LEAST_DARK {
             return None;
         }
@@ -194,9 +197,10 @@ impl Noise {
         let least = (LEAST * gain).powi(2);
         let squares = dark.iter().map(|r| r * r).sum::<f64>();
         let power = correlation * (squares / (n - correlation) + least);
-        let in_light = (noise::fast(&residuals[parts.pulse]) + least) / (noise::fast(&dark) + least);
+        let in_light = (noise::fast(&residuals[pulse.clone()]) + least) / (noise::fast(&dark) + least);
         // How well a correlated noise's power is known was worked out for one that goes on from one sample to the next.
-        Some(Self { power, in_light: in_light.max(1.0), known: n / (2.0 * correlation - 1.0) })
+        let known = n / (2.0 * correlation - 1.0);
+        Some(Self { power, walk: power / (gain * gain) * fits.step, in_light: in_light.max(1.0), known })
     }
 
     /// The variance that it gives a pattern's score.

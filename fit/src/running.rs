@@ -9,9 +9,8 @@ use crate::errors::{Measured, Results};
 use crate::frame::FrameFits;
 use crate::missed::{Parts, least_open, missed};
 use crate::noise::{mean, mean_square};
-use crate::patterns::tail_end;
+use crate::patterns::{Noise, tail_end};
 use crate::signal::Kind;
-use crate::structure::Walk;
 use crate::trace::median;
 
 /// Full light is looked for in a stretch of so many pulses, cut into parts.
@@ -85,7 +84,7 @@ impl Running {
         let parts = Parts::new(fits, kind);
         let missed = missed(fits, kind);
         let dark = [&missed[parts.before.clone()], &missed[parts.after.clone()]].concat();
-        let walk = Walk::new(&missed, &parts, fits.step)?;
+        let Noise { walk, .. } = Noise::new(fits, kind, &parts)?;
         let length = (dark.len() / 12).max(1);
         let blocks: Vec<f64> = dark.chunks(length).map(mean).collect();
         let usual = median(blocks.iter().map(|b| b.abs()).collect()) / 0.6745 + 1e-6;
@@ -104,7 +103,7 @@ impl Running {
         let to = tail.map_or(to, |end| fits.samples.partition_point(|bin| bin.from <= end).max(to));
         // The noise is known by what is dark now.
         let dark_now = Parts { before: 0..from, pulse: from..to, after: to..missed.len() };
-        let walk = Walk::new(&missed, &dark_now, fits.step).unwrap_or(walk);
+        let walk = Noise::new(fits, kind, &dark_now).map_or(walk, |noise| noise.walk);
 
         let opened = fits.opened(kind);
         let (mut sum, mut sums) = (0.0, Vec::new());
@@ -117,15 +116,15 @@ impl Running {
             sums.push((ends, sum));
             begins = ends;
         }
-        let level = Self::level(fits, &opened, base, walk.power)?;
+        let level = Self::level(fits, &opened, base, walk)?;
         // A median is known less well than a mean; and a level that wanders more than the noise, as a drift or a hum
         // makes it, does so in the pulse as well.
         let unlit = blocks.iter().map(|b| b - base).filter(|b| b.abs() <= IS_LIGHT * usual);
-        let wanders = mean_square(&unlit.collect::<Vec<_>>()) - walk.power / (length as f64 * fits.step);
-        let dark = 0.5 * PI * walk.power / (dark.len() as f64 * fits.step);
+        let wanders = mean_square(&unlit.collect::<Vec<_>>()) - walk / (length as f64 * fits.step);
+        let dark = 0.5 * PI * walk / (dark.len() as f64 * fits.step);
         let start = lit[0].from;
         let early = (from < parts.pulse.start).then_some(start);
-        Some(Self { sums, start, early, level, walk: walk.power, dark, wanders: wanders.max(0.0) })
+        Some(Self { sums, start, early, level, walk, dark, wanders: wanders.max(0.0) })
     }
 
     /// Full light, by the stretch of the pulse that is flattest: what a shutter does before it rests does not count.

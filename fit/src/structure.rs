@@ -11,7 +11,7 @@ use crate::frame::FrameFits;
 use crate::missed::{Parts, missed};
 use crate::noise::{blocks, correlation, fast, from_mean, mean_square, normal_of, slow_correlation};
 use crate::outcome::Test;
-use crate::patterns::{MATTERS, Pattern, Shape, patterns};
+use crate::patterns::{MATTERS, Noise, Pattern, Shape, patterns};
 use crate::signal::Kind;
 
 /// So many standard deviations are beyond chance: a normal number is there once in 30 000 times.
@@ -46,7 +46,7 @@ pub struct Structure {
 pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
     let light = Light { fits, kind, parts: Parts::new(fits, kind), missed: missed(fits, kind) };
     let parts = &light.parts;
-    let tested = Walk::new(&light.missed, parts, fits.step).is_some();
+    let tested = Noise::new(fits, kind, parts).is_some();
     let longer = parts.before.len().max(parts.after.len());
     let sides = [&parts.before, &parts.after].into_iter().filter(|it| 3 * it.len() >= longer);
     let wanders = sides.map(|side| slow_correlation(&from_mean(light.of(side))));
@@ -102,39 +102,6 @@ impl Structure {
             self.test = Test { sigma, share, at, ..self.test };
             self.beyond = beyond;
         }
-    }
-}
-
-/// How fast sums of the noise wander, as the dark shows it.
-pub struct Walk {
-    /// The variance of a sum over a unit of time.
-    pub power: f64,
-    /// By so many blocks.
-    pub blocks: usize,
-}
-
-impl Walk {
-    /// By what blocks in the dark differ by from the next, so that a drift does not count; none where there is too
-    /// little dark.
-    pub fn new(missed: &[f64], parts: &Parts, step: f64) -> Option<Self> {
-        let dark = [&missed[parts.before.clone()], &missed[parts.after.clone()]];
-        let length = (dark[0].len() + dark[1].len()) / 14;
-        if length == 0 {
-            return None;
-        }
-        let by = |length: usize| {
-            let pairs = |part: &[f64]| {
-                let means = blocks(part, length);
-                means.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>()
-            };
-            let differ = dark.map(pairs).concat();
-            let power = 0.5 * mean_square(&differ) * length as f64 * step + 1e-10 * step;
-            Self { power, blocks: differ.len() }
-        };
-        // 1/f noise has more in blocks of twice the length.
-        let (walk, longer) = (by(length), by(2 * length));
-        let power = walk.power.max(longer.power);
-        (walk.blocks >= 6).then_some(Self { power, ..walk })
     }
 }
 
