@@ -206,7 +206,7 @@ fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<W
     // The samples' own quarters lie half a ramp apart, whichever curve was taken.
     let shorter = (up75 - up25).min(down25 - down75);
     let is_sharp = curve.opening.min(curve.closing) < 2.0 * step && shorter < 1.5 * step;
-    is_sharp.then_some(Warning::SharpEdges { step })
+    is_sharp.then_some(Warning::SharpEdges { step, share: step / fit.exposure.value })
 }
 
 fn no_plateau(fit: &Fit) -> Option<Warning> {

@@ -251,10 +251,12 @@ messages! {
     NoiseHidesRamps { noise: f64 }
         "noise of {:.1} % of the light hides the ramps' shape; average several shots, or use more light",
         100.0 * noise;
-    SharpEdges { step: f64 }
-        "edges within two samples: each is known to {} at best (the sampling interval by the root of 12); sample \
-         faster if that matters",
-        time(&(step / 12f64.sqrt()));
+    /// Of a recorder that shows moments, nobody knows where between two samples an edge was: the share of the exposure
+    /// that a sample is.
+    SharpEdges { step: f64, share: f64 }
+        "edges within two samples: each is known to {} at best (the sampling interval by the root of 12), and the \
+         exposure to a sample, {} of it; sample faster if that matters",
+        time(&(step / 12f64.sqrt())), percent(share);
     NoPlateau [Remedy::Full]
         "there is no plateau to speak of: the shutter may never open fully; the peak counts as full light, unless \
          the signal of full light is given";

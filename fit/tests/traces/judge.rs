@@ -37,6 +37,8 @@ pub struct Row {
     efficiency_covered: bool,
     pub from_trace: bool,
     pub warnings: Vec<&'static str>,
+    /// Does a warning tell that it may be wrong?
+    pub is_told: bool,
     /// Its errors are beyond what is allowed.
     pub is_wrong: bool,
     seconds: f64,
@@ -50,7 +52,7 @@ impl Row {
         let seconds = clock.elapsed().as_secs_f64();
         match fit {
             Ok(fit) => Self { seconds, ..Self::of(case, &fit) },
-            Err(_) => Self { seconds, refused: true, warnings: vec!["refused"], ..Self::default() },
+            Err(_) => Self { seconds, refused: true, is_told: true, warnings: vec!["refused"], ..Self::default() },
         }
     }
 
@@ -86,22 +88,26 @@ impl Row {
         row.simple = case.kind.map(|kind| fit.chosen <= kind);
         row.from_trace = fit.from == From::Trace;
         row.warnings = fit.warnings.iter().map(Warning::code).collect();
+        row.is_told = fit.warnings.iter().any(tells);
         row
     }
 
-    /// Is there a warning other than of noise or drift?
-    pub fn is_told(&self) -> bool {
-        const BESIDE: [&str; 8] =
-            ["noise", "drift", "inverted", "sharp_edges", "hum", "spikes", "glitches", "partial_frame"];
-        self.warnings.iter().any(|code| !BESIDE.contains(code))
-    }
-
     pub fn is_wrong_silently(&self) -> bool {
-        self.is_wrong && !self.is_told()
+        self.is_wrong && !self.is_told
     }
 
     pub fn says(&self, code: &str) -> bool {
         self.warnings.contains(&code)
+    }
+}
+
+/// Does a warning tell that a result may be wrong? None of noise or drift does, nor one of edges that half a sample
+/// cannot make wrong.
+fn tells(warning: &Warning) -> bool {
+    const BESIDE: [&str; 7] = ["noise", "drift", "inverted", "hum", "spikes", "glitches", "partial_frame"];
+    match warning {
+        Warning::SharpEdges { share, .. } => 0.5 * share > WRONG.0,
+        other => !BESIDE.contains(&other.code()),
     }
 }
 

@@ -141,7 +141,7 @@ fn a_tail_is_no_drift() {
 fn a_dip_and_a_slope_are_told() {
     let [dips, slopes] =
         ["a dip of 1 %", "full light that sinks by 0.5 to 2 %"].map(|family| family_rows(family, 60, 5));
-    let (told, found) = (count(&dips, Row::is_told), count(&dips, |row| row.from_trace));
+    let (told, found) = (count(&dips, |row| row.is_told), count(&dips, |row| row.from_trace));
     assert!(told >= 57 && found >= 42, "{told} {found}");
     let held = count(&slopes, |row| row.covered);
     assert!(held >= 56, "{held}");
