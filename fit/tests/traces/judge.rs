@@ -15,9 +15,8 @@ const EARLY: f64 = 1e3;
 const INTERVAL: f64 = 1.96;
 /// Results beyond these, as shares of the exposure, are wrong: of the triggers, of the exposure.
 const WRONG: (f64, f64) = (0.0015, 0.005);
-/// Fewer intervals tell nothing of their being too wide: where 95 % hold the truth, 90 all do once in a hundred times,
-/// 20 once in three.
-const TELLING: usize = 90;
+/// Intervals are too wide where more of them hold the truth than would once in so many times, if so large a share did.
+const TOO_WIDE: (f64, f64) = (50.0, 0.98);
 
 /// What came of a trace.
 #[derive(Default)]
@@ -134,13 +133,25 @@ fn coverage(rows: &[&Row]) -> [f64; 4] {
 
 /// Limits on how often an interval holds the truth: not too seldom, and not because it is too wide, but for what is in
 /// it that these shutters do not do.
-pub fn judge_coverage(rows: &[Row], least: [f64; 4], most: f64) {
+pub fn judge_coverage(rows: &[Row], least: [f64; 4]) {
     let covered = coverage(&rows.iter().collect::<Vec<_>>());
     assert!(covered.iter().zip(least).all(|(share, least)| *share >= least), "covered: {covered:.3?}");
     let sighted: Vec<&Row> = rows.iter().filter(|row| !row.says("unseen")).collect();
     let [triggers, exposures, ..] = coverage(&sighted);
-    let is_kept = sighted.len() < TELLING || triggers.max(exposures) <= most;
-    assert!(is_kept, "covered without `unseen`: {triggers}, {exposures} of {}", sighted.len());
+    let (times, n) = (TOO_WIDE.0, sighted.len());
+    let are_too_wide = [triggers, exposures].map(|share| times * chance(n, n as f64 * (1.0 - share)) < 1.0);
+    assert!(are_too_wide == [false; 2], "covered without `unseen`: {triggers}, {exposures} of {n}");
+}
+
+/// How likely it is that no more than so many of `n` intervals miss the truth, where the share of [`TOO_WIDE`] holds it.
+fn chance(n: usize, missed: f64) -> f64 {
+    let holds = TOO_WIDE.1;
+    let (mut term, mut sum) = (holds.powf(n as f64), 0.0);
+    for k in 0..=missed.round() as usize {
+        sum += term;
+        term *= (n - k) as f64 / (k + 1) as f64 * (1.0 - holds) / holds;
+    }
+    sum
 }
 
 /// Limits on the triggers' errors, their median and what 90 % of the rows keep, and on the choice of the kind.
