@@ -20,13 +20,14 @@ signed = lambda p: And(p >= -(2**31) * most, p <= (2**31 - 1) * most)
 words = And(signed(hh), signed(hl), lh >= 0, lh <= most**2, ll >= 0, ll <= most**2)
 exact = hh * WORD**2 + (hl + lh) * WORD + ll
 in_words = hh + hl / WORD + lh / WORD
-is_low = lambda by: Implies(words, And(exact - in_words * WORD**2 >= 0, exact - in_words * WORD**2 < by * WORD**2 / 100))
+too_low = exact - in_words * WORD**2
+is_low = lambda by: Implies(words, And(too_low >= 0, too_low < by * WORD**2 / 100))
 valid("product: a x / 2^64, low by less than 3", is_low(300), is_low(299))
 lower = hl + ll / WORD
 middle = lh + lower % WORD
 fraction = (hh + lower / WORD + middle / WORD) * WORD + middle % WORD
 fits = And(middle < WORD**2, lower < 2**63, lower >= -(2**63))
-valid("product_up: a x rounded down to 32 bits after the point, with no sum beyond its word: so down to each bit before",
+valid("product_up: a x rounded down to 32 bits after the point, no sum beyond its word: so down to each bit before",
       Implies(words, And(fraction == exact / WORD, fits)), Implies(words, middle < WORD**2 - WORD))
 # In `a`, across a change of its upper word: floor(high x / 2^32) gains x_high or more, floor(low x_high / 2^32) loses
 # no more. Else, and in `x`, both only grow.
@@ -34,7 +35,7 @@ of_high, of_low = (high_x + x_high * WORD + x_low) / WORD - high_x / WORD, lh / 
 grows = lambda most: Implies(And(x_low >= 0, x_high >= 0, lh >= 0, lh <= most * x_high), of_high >= of_low)
 valid("product: for an `a` from 0 on it never falls as `a` grows", grows(WORD - 1), grows(2 * WORD))
 
-# --- A series of n coefficients by Horner's rule: n - 1 products by `product`, each less than 3 units of 2^shift low and
+# --- A series of n coefficients by Horner's rule: n - 1 products by `product`, each less than 3 units of 2^shift low,
 # then multiplied by the place, which is below 1, once for each product that follows; the last is rounded down.
 loses = lambda n, shift, p: 2**shift * 3 * sum(p**k for k in range(1, n)) + 1
 MASS_SHIFT, WAY_SHIFT = constant("MASS_SHIFT"), constant("WAY_SHIFT")

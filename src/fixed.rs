@@ -2,9 +2,9 @@
 //!
 //! | word | meaning | counted from | type, unit |
 //! |---|---|---|---|
-//! | *mass* | light, as a share of the whole exposure | an end of the curve or of a ramp | `i64`, 2⁻⁶² ([`ONE`] is the whole) |
+//! | *mass* | light, as a share of the exposure | an end of the curve or of a ramp | `i64`, 2⁻⁶² ([`ONE`]: all of it) |
 //! | *time* | as the user gave it | time 0 | `i64`, *units*: the greatest has 2⁶¹ to 2⁶² ([`Units`]) |
-//! | *way* | the time since an end | an end of the curve or of a ramp | `i64`, *fine units*: the interval has 2⁶¹ to 2⁶² |
+//! | *way* | the time since an end | an end of the curve or a ramp | `i64`, *fine units*: the interval has 2⁶¹ to 2⁶² |
 //! | *place* | the parameter `p` of a ramp's Bezier | an end of the ramp | `u64`, 2⁻⁶⁴ |
 //! | openness | | | `i64`, 2⁻⁶⁰ |
 //!

@@ -53,8 +53,8 @@ impl<const N: usize> Series<'_, N> {
         let unit = power_of_two(-(self.shift as i32));
         let sought = single(target) * unit;
         let guess = guess(&c, sought);
-        // Not to the other end, where the slope may be 0: any place well before it will do. A later step may lead there,
-        // and the next one back.
+        // Not to the other end, where the slope may be 0: any place well before it will do. A later step may lead
+        // there, and the next one back.
         let mut p = place(if guess < 0.75 { guess } else { 0.75 });
         let (mut low, mut high, mut evaluations) = (0, u64::MAX, 0);
         let (mut missing, mut is_far) = (0.0, true);

@@ -57,7 +57,8 @@ function factsOf({ now: { scene: { own, unit, shutter: { nominal } } }, view }, 
   const without = [...HIDDEN, ...(fit ? [...OF_CURVE, ...fit.facts.map(({ label }) => label)] : [])];
   const rest = told.facts.filter(({ label }) => !without.includes(label));
   // Of what cannot be planned, that much is known.
-  const alone = fit || own || told.facts.length ? [] : [{ label: 'exposure', text: `${short(exposure * per)} ${unit}` }];
+  const least = { label: 'exposure', text: `${short(exposure * per)} ${unit}` };
+  const alone = fit || own || told.facts.length ? [] : [least];
   for (const { label, text } of [...(fit?.facts ?? []), ...alone, ...rest]) {
     if (text) facts.set(label, [facts.get(label), text].filter(Boolean).join(', '));
   }

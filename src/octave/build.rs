@@ -72,7 +72,7 @@ const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     }
 }
 
-/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what share of the exposure
+/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what share of exposure
 /// their polynomials serve, and whether none is missing. What is served before a first missing one counts 1024 times,
 /// so that `direct_triggers` comes first.
 #[inline(never)]

@@ -52,8 +52,8 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
         i < self.n && self.inverse.direct_units(self.fraction(i, 0.0)).is_some()
     }
 
-    /// The fraction `(2i + 1 + by) / 2n`: of a trigger the nearest `f32`, of an end of a pulse within one and a half ulp
-    /// (proofs/ticks.py).
+    /// The fraction `(2i + 1 + by) / 2n`: of a trigger the nearest `f32`, of an end of a pulse within one and a half
+    /// ulp (proofs/ticks.py).
     #[inline(always)]
     const fn fraction(&self, i: u32, by: f32) -> Fraction {
         let (odd, whole) = (2 * i + 1, 2 * self.n);

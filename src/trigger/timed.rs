@@ -219,8 +219,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// How many ticks of a fully open shutter's exposure each trigger needs, so that the next is surely `least` later.
     ///
-    /// Openness is at most 1, so the nth part of `part` ticks takes `part / n` or more. Of `E = exposure_ticks`, at most
-    /// 3 ticks and 2⁻²¹ are lost:
+    /// Openness is at most 1, so the nth part of `part` ticks takes `part / n` or more. Of `E = exposure_ticks`, at
+    /// most 3 ticks and 2⁻²¹ are lost:
     ///
     /// - by both of its ends 1.04 ticks, and four ulp of a fraction, at most 2⁻²² (accuracy.md);
     /// - by `part` three roundings, 3 · 2⁻²⁴;

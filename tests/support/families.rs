@@ -347,8 +347,8 @@ fn hitting(curve: &Curve, rng: &mut Rng) -> Curve {
     if is_valid(&hit) { hit } else { *curve }
 }
 
-/// What people draw: whole milliseconds, plain fractions, the same number twice. A random share of the exposure is never
-/// 5/8, and whole numbers give it at once. With how many of each are tried.
+/// What people draw: whole milliseconds, plain fractions, the same number twice. A random share of the exposure is
+/// never 5/8, and whole numbers give it at once. With how many of each are tried.
 pub const DESIGNS: [(&str, u64, fn(&mut Rng) -> Curve); 2] = [
     // In whole ms, the same in s, or in another unit; some far from time 0, or never dark, in tenths.
     ("whole numbers", 150, |rng| {

@@ -143,7 +143,7 @@ pub fn judge_coverage(rows: &[Row], least: [f64; 4]) {
     assert!(are_too_wide == [false; 2], "covered without `unseen`: {triggers}, {exposures} of {n}");
 }
 
-/// How likely it is that no more than so many of `n` intervals miss the truth, where the share of [`TOO_WIDE`] holds it.
+/// How likely it is that no more than so many of `n` intervals miss the truth, where that of [`TOO_WIDE`] holds it.
 fn chance(n: usize, missed: f64) -> f64 {
     let holds = TOO_WIDE.1;
     let (mut term, mut sum) = (holds.powf(n as f64), 0.0);
