@@ -456,7 +456,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
 fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
     let folder = Folder::new("written");
     folder.write("leaf&co.csv", leaf(1.0));
-    let line = "fit leaf&co.csv --out a.toml --picture a.svg --triggers 5 --zero open";
+    let line = "fit 'leaf&co.csv' --out a.toml --picture a.svg --triggers 5 --zero open";
     let out = folder.run(line).well().out;
     assert!(out.lines().all(|line| line.chars().count() <= 80), "{out}");
     let scene = folder.text("a.toml");

@@ -18,24 +18,6 @@ fn folder(name: &str) -> Folder {
     folder
 }
 
-impl Folder {
-    /// Runs the program with these arguments, by a shell.
-    fn exec(&self, args: &str) -> Run {
-        self.shell(&format!("exec \"$shutter\" {args}"))
-    }
-
-    /// Each run is refused for this reason, and all files are as they were.
-    #[track_caller]
-    fn keeps(&self, runs: &[(&str, &str)]) {
-        for (args, reason) in runs {
-            let before = self.all();
-            let run = self.exec(args);
-            assert!(run.code == Some(2) && run.err.contains(reason), "{args}: {run:?}");
-            assert!(self.all() == before, "{args}");
-        }
-    }
-}
-
 #[test]
 fn an_output_that_is_an_input_is_refused_by_any_name() {
     let folder = folder("inputs");
@@ -58,9 +40,9 @@ fn an_output_that_is_an_input_is_refused_by_any_name() {
         "plan scene.toml --emit c --to scene.toml",
         "fit a.toml b.toml --out .",
     ] {
-        folder.keeps(&[(args, "it is the input"), (&format!("{args} --force"), "it is the input")]);
+        folder.refuses(&[(args, "it is the input"), (&format!("{args} --force"), "it is the input")]);
     }
-    folder.keeps(&[
+    folder.refuses(&[
         ("plan scene.toml --emit rust >> scene.toml", "standard output"),
         ("fit - --out trace.csv --force < trace.csv", "standard input"),
     ]);
@@ -74,7 +56,7 @@ fn two_outputs_of_one_file_are_refused() {
     folder.write("sub/trace.csv", leaf(2.0));
     folder.write("old.svg", "old");
     fs::hard_link(folder.path("old.svg"), folder.path("hard.svg")).unwrap();
-    folder.keeps(&[
+    folder.refuses(&[
         ("plan --out new.svg --set-ups new.svg", "two outputs"),
         ("plan --out new.svg --set-ups sub/../new.svg", "two outputs"),
         ("plan --out new.svg --set-ups link.svg", "two outputs"),
@@ -95,13 +77,13 @@ fn a_file_of_something_else_needs_force() {
     let folder = folder("force");
     folder.write("notes", "what I measured\n");
     symlink("notes", folder.path("link.svg")).unwrap();
-    folder.keeps(&[
+    folder.refuses(&[
         ("fit trace.csv --out notes", "--force"),
         ("plan --out link.svg", "--force"),
         ("plan --emit csv --to notes", "--force"),
         ("fit trace.csv --picture link.svg", "--force"),
     ]);
-    folder.exec("plan --emit csv --to notes --force").well();
+    folder.run("plan --emit csv --to notes --force").well();
     assert!(folder.text("notes").starts_with("scene,index,"));
     assert!(folder.path("link.svg").is_symlink());
     // What it wrote is replaced while nobody has changed it: by its mark, or by the same bytes where it has none.
@@ -109,12 +91,12 @@ fn a_file_of_something_else_needs_force() {
         let (file, line) = (format!("made.{form}"), format!("plan --emit {form} --to made.{form}"));
         let wrote = format!("warning: no scene is named, so this is the example, soft\nwrote {file}\n");
         for _ in 0..2 {
-            assert_eq!(folder.exec(&line).well().err, wrote);
+            assert_eq!(folder.run(&line).well().err, wrote);
         }
         let (has_mark, other) = (matches!(form, "rust" | "c"), format!("{line} --triggers 5"));
         match has_mark {
-            true => drop(folder.exec(&other).well()),
-            false => folder.keeps(&[(&other, "a table does not tell whose")]),
+            true => drop(folder.run(&other).well()),
+            false => folder.refuses(&[(&other, "a table does not tell whose")]),
         }
         let text = folder.text(&file);
         let changed = if has_mark { "you have changed it since" } else { "--force" };
@@ -126,27 +108,27 @@ fn a_file_of_something_else_needs_force() {
             (format!("mine {text}"), "--force"),
         ] {
             folder.write(&file, edited);
-            folder.keeps(&[(&line, reason)]);
+            folder.refuses(&[(&line, reason)]);
         }
         // Editors may do these.
         for edited in [format!("\u{feff}{text}"), text.replace('\n', "\r\n")] {
             folder.write(&file, &edited);
             let line = if has_mark { line.clone() } else { format!("{line} --force") };
-            assert_eq!(folder.exec(&line).well().err, wrote);
+            assert_eq!(folder.run(&line).well().err, wrote);
             assert_ne!(folder.text(&file), edited);
         }
     }
     // The checksum of older versions, as it is published with the algorithm.
     folder.write("old.h", "/* Checksum bf9cf968 of the lines below: `shutter` replaces them while it holds */\nfoobar");
-    folder.exec("plan --emit c --to old.h").well();
+    folder.run("plan --emit c --to old.h").well();
     for _ in 0..2 {
-        folder.exec("plan --out made.svg --set-ups both.svg").well();
+        folder.run("plan --out made.svg --set-ups both.svg").well();
     }
-    folder.exec("fit trace.csv --picture made.svg").well();
+    folder.run("fit trace.csv --picture made.svg").well();
     folder.write("made.svg", folder.text("made.svg").replace("<svg ", "<svg  "));
     // A scene holds what its user wrote whether or not its mark does.
-    folder.exec("fit trace.csv --out leaf.toml").well();
-    folder.keeps(&[
+    folder.run("fit trace.csv --out leaf.toml").well();
+    folder.refuses(&[
         ("fit trace.csv --picture made.svg", "you have changed it since"),
         ("plan --emit rust --to leaf.toml", "--force"),
     ]);
@@ -158,7 +140,7 @@ fn a_fit_is_not_lost_with_its_files() {
     let folder = folder("late");
     folder.write("notes", "mine\n");
     symlink("notes", folder.path("notes.svg")).unwrap();
-    folder.keeps(&[
+    folder.refuses(&[
         ("fit none.csv --out notes", "notes: it holds no scene that a fit wrote"),
         ("fit none.csv --picture notes.svg", "notes.svg: it holds something else"),
         ("fit none.csv --out none/leaf.toml", "its folder is not there"),
@@ -167,9 +149,9 @@ fn a_fit_is_not_lost_with_its_files() {
     // Five nanoseconds are too short for sixteen triggers.
     folder.write("ns.csv", leaf(1.0).replace("time_ms", "time_ns"));
     let args = "fit ns.csv --out ns.toml";
-    folder.keeps(&[(args, "ask for fewer triggers (--triggers)")]);
-    assert!(folder.exec(args).out.contains("\nexposure     5.00"));
-    folder.exec("fit ns.csv --out ns.toml --triggers 4").well();
+    folder.refuses(&[(args, "ask for fewer triggers (--triggers)")]);
+    assert!(folder.run(args).out.contains("\nexposure     5.00"));
+    folder.run("fit ns.csv --out ns.toml --triggers 4").well();
 }
 
 #[test]
@@ -178,7 +160,7 @@ fn links_are_written_through_and_other_names_keep_what_they_had() {
     fs::create_dir(folder.path("far")).unwrap();
     symlink("far/new.svg", folder.path("link.svg")).unwrap();
     symlink("link.svg", folder.path("twice.svg")).unwrap();
-    folder.exec("plan --out twice.svg").well();
+    folder.run("plan --out twice.svg").well();
     assert!(folder.path("link.svg").is_symlink() && folder.path("twice.svg").is_symlink());
     assert!(folder.text("far/new.svg").contains("\n<svg "));
     // The mode stays, and a new file's is that of any new file.
@@ -192,15 +174,15 @@ fn links_are_written_through_and_other_names_keep_what_they_had() {
     assert!(folder.text("far/new.svg") != older && folder.text("other.svg") == older);
     assert!(folder.path("link.svg").is_symlink());
     symlink("round.svg", folder.path("round.svg")).unwrap();
-    folder.keeps(&[("plan --out round.svg", "round.svg: ")]);
+    folder.refuses(&[("plan --out round.svg", "round.svg: ")]);
 }
 
 #[test]
 fn devices_and_pipes_are_written_to() {
     let folder = folder("streams");
-    folder.exec("plan --out /dev/null --set-ups /dev/null").well();
-    let csv = folder.exec("plan --emit csv").well().out;
-    assert_eq!(folder.exec("plan --emit csv --to /dev/stdout").out, csv);
+    folder.run("plan --out /dev/null --set-ups /dev/null").well();
+    let csv = folder.run("plan --emit csv").well().out;
+    assert_eq!(folder.run("plan --emit csv --to /dev/stdout").out, csv);
     let piped = "mkfifo pipe.svg; cat pipe.svg & $shutter plan --out pipe.svg > text; wait";
     for line in [piped, "$shutter plan --out -"] {
         let out = folder.shell(line).prints(&["\n<svg "]).out;
@@ -225,62 +207,41 @@ fn devices_and_pipes_are_written_to() {
 }
 
 /// A file whose writing fails at any block leaves the old ones and no other: here a limit is in place of a full disk.
+/// Beyond it a write is a signal, too, which ends the program where it stands: then each file is the old one, whole.
 #[test]
-fn a_full_disk_leaves_the_old_files() {
+fn a_full_disk_and_a_kill_leave_the_old_files() {
     let folder = folder("full");
-    folder.exec("plan --out a.svg --set-ups b.svg --emit c --to c.h").well();
+    folder.run("plan --out a.svg --set-ups b.svg --emit c --to c.h").well();
     let line = "plan scene.toml --out a.svg --set-ups b.svg --emit c --to c.h --force";
-    let mut refused = 0;
-    for blocks in (0..200).step_by(5) {
-        let before = folder.all();
-        let run = folder.shell(&format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$shutter\" {line}"));
-        if run.code == Some(0) {
+    let limited = |first, blocks| folder.shell(&format!("{first}; ulimit -f {blocks}; exec \"$shutter\" {line}"));
+    let (before, mut stopped) = (folder.all(), 0);
+    loop {
+        let (killed, blocks) = (limited("ulimit -c 0", 7 * stopped), 7 * stopped);
+        if killed.code == Some(0) {
             break;
         }
+        assert!(killed.code.is_none(), "{blocks}: {killed:?}");
+        for left in folder.names().iter().filter(|name| name.starts_with(".shutter-")) {
+            fs::remove_file(folder.path(left)).unwrap();
+        }
+        let run = limited("trap '' XFSZ", blocks);
         assert!(run.code == Some(2) && run.err.contains("File too large"), "{blocks}: {run:?}");
         assert!(folder.all() == before, "{blocks}");
-        refused += 1;
+        stopped += 1;
     }
-    assert!(refused > 3, "{refused}");
+    assert!(stopped > 3 && folder.all() != before, "{stopped}");
     // A full device, standard output as well: then no file is new either.
-    folder.keeps(&[
+    folder.refuses(&[
         ("plan --out new.svg --emit c --to /dev/full", "No space left"),
         ("plan --out new.svg > /dev/full", "No space left"),
     ]);
-}
-
-/// Whenever it is killed while it writes, each file is the old one or the new one, whole.
-#[test]
-fn a_kill_leaves_whole_files() {
-    let folder = folder("killed");
-    let files = || [folder.text("a.svg"), folder.text("c.h")];
-    let plan = |n| format!("plan --triggers {n} --out a.svg --emit c --to c.h --force");
-    let [old, new] = [3, 4].map(|n| {
-        folder.exec(&plan(n)).well();
-        files()
-    });
-    let (mut killed, mut blocks) = (0, 0);
-    loop {
-        folder.write("a.svg", &old[0]);
-        folder.write("c.h", &old[1]);
-        // Beyond the limit a write is a signal, which ends the program where it stands.
-        let limits = format!("ulimit -c 0; ulimit -f {blocks}");
-        let run = folder.shell(&format!("{limits}; exec \"$shutter\" {}", plan(4)));
-        if run.code == Some(0) {
-            assert!(files() == new);
-            break;
-        }
-        assert!(run.code.is_none() && files() == old, "{blocks}: {:?}", run.code);
-        (killed, blocks) = (killed + 1, blocks + 7);
-    }
-    assert!(killed > 3, "{killed}");
 }
 
 #[test]
 fn two_runs_at_once_leave_one_of_theirs() {
     let folder = folder("race");
     let whole = [3, 4].map(|n| {
-        folder.exec(&format!("plan --triggers {n} --out {n}.svg")).well();
+        folder.run(&format!("plan --triggers {n} --out {n}.svg")).well();
         folder.text(&format!("{n}.svg"))
     });
     for _ in 0..10 {
@@ -297,7 +258,7 @@ fn two_runs_at_once_leave_one_of_theirs() {
 #[test]
 fn a_file_that_changes_meanwhile_is_kept() {
     let folder = folder("meanwhile");
-    folder.exec("fit trace.csv --out old.toml").well();
+    folder.run("fit trace.csv --out old.toml").well();
     for out in ["old.toml", "new.toml"] {
         let line = format!(
             "mkfifo {out}.in; $shutter fit - --out {out} < {out}.in & exec 3> {out}.in; sleep 0.5\n\
@@ -316,7 +277,7 @@ fn what_cannot_be_written_leaves_nothing() {
     fs::create_dir(folder.path("taken.svg")).unwrap();
     folder.write("leaf.h", "/* old */\n");
     folder.write("bare.toml", with(TRAPEZOID, ""));
-    folder.keeps(&[
+    folder.refuses(&[
         ("plan --set-ups ok.svg --out taken.svg", "it is a folder"),
         ("plan --set-ups ok.svg --out none/new.svg", "its folder is not there"),
         ("fit trace.csv --picture ok.svg --out none/leaf.toml", "its folder is not there"),
@@ -326,13 +287,13 @@ fn what_cannot_be_written_leaves_nothing() {
     ]);
     // Whoever made it read-only does not want it replaced, and root is no exception.
     fs::set_permissions(folder.path("leaf.h"), PermissionsExt::from_mode(0o444)).unwrap();
-    folder.keeps(&[("plan --emit c --to leaf.h --force", "it is read-only")]);
+    folder.refuses(&[("plan --emit c --to leaf.h --force", "it is read-only")]);
     let locked = folder.path("locked");
     fs::create_dir(&locked).unwrap();
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o555)).unwrap();
     // Root may write there.
     if File::create(locked.join("probe")).is_err() {
-        folder.keeps(&[("plan --set-ups ok.svg --out locked/new.svg", "permission denied")]);
+        folder.refuses(&[("plan --set-ups ok.svg --out locked/new.svg", "permission denied")]);
     }
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
 }
@@ -347,7 +308,7 @@ fn apart(scene: &str) -> (String, &str) {
 #[test]
 fn a_fit_replaces_its_table_and_nothing_else() {
     let folder = folder("kept");
-    let fit = |args: &str| folder.exec(&format!("fit {args} --out leaf.toml")).well().err;
+    let fit = |args: &str| folder.run(&format!("fit {args} --out leaf.toml")).well().err;
     let scene = || folder.text("leaf.toml");
     let next = "next: shutter plan leaf.toml --set-up emulated|in_path --timer-hz HERTZ --min-gap TIME";
     let wrote = format!("wrote leaf.toml\n{next} --sync-falls true|false --emit rust --to leaf.rs\n");
@@ -369,7 +330,7 @@ fn a_fit_replaces_its_table_and_nothing_else() {
         assert_eq!(apart(&now).0, apart(&edited).0);
         // Neither a delay nor a spread that it did not measure is left.
         has(&now, &["\nnominal = 8.0\n", "\nopen_start = 4.0", "\ntrace = \"slow.csv\"\n"], &["delay", "trace.csv"]);
-        assert_eq!(folder.exec("plan leaf.toml --emit json").well().err, "");
+        assert_eq!(folder.run("plan leaf.toml --emit json").well().err, "");
     }
     // The unit stays, since the flashes may count in it.
     let us = first.replace("unit = \"ms\"", "unit = \"us\"");
@@ -387,13 +348,13 @@ fn a_fit_replaces_its_table_and_nothing_else() {
     ] {
         let edited = first.replacen(from, to, 1);
         folder.write("leaf.toml", &edited);
-        folder.keeps(&[(
+        folder.refuses(&[(
             "fit slow.csv --out leaf.toml",
             if to.contains("nominal") { "that a fit wrote" } else { below },
         )]);
         if !to.contains("nominal") {
             let told = "doubt        what a fit wrote below [shutter] was changed by hand since";
-            has(&folder.exec("plan leaf.toml").well().out, &[told], &[]);
+            has(&folder.run("plan leaf.toml").well().out, &[told], &[]);
             fit("trace.csv --sync 0 --force");
             assert_eq!(apart(&scene()).0, apart(&edited).0);
         }
@@ -403,17 +364,19 @@ fn a_fit_replaces_its_table_and_nothing_else() {
     fit("trace.csv --sync 0");
     // What no fit wrote, and an option against what is the user's.
     folder.write("leaf.toml", &first);
-    folder.keeps(&[(
+    folder.refuses(&[(
         "fit trace.csv --triggers 6 --out leaf.toml",
         "it has triggers = 16 below [flashes], which are yours",
     )]);
     for text in [MEASURED.replace("[shutter.measured]", "[shutter.own]"), "[package]\nname = 'mine'\n".into()] {
         folder.write("leaf.toml", text);
-        folder
-            .keeps(&[("fit trace.csv --out leaf.toml", "it holds no scene that a fit wrote; --force replaces it all")]);
+        folder.refuses(&[(
+            "fit trace.csv --out leaf.toml",
+            "it holds no scene that a fit wrote; --force replaces it all",
+        )]);
     }
     folder.write("leaf.toml", with(TRAPEZOID, ""));
-    folder.keeps(&[("fit trace.csv --out leaf.toml", "no fit wrote its [shutter]; --force")]);
+    folder.refuses(&[("fit trace.csv --out leaf.toml", "no fit wrote its [shutter]; --force")]);
     fit("trace.csv --sync 0 --force");
     has(&scene(), &["triggers = 7\ntimer_hz = 1000\n"], &["# Yours"]);
     // Flashes that do not go with the shutter are told, and the scene is there for its user to mend them.
@@ -427,20 +390,20 @@ fn no_delay_is_older_than_its_trace() {
     let folder = folder("stale");
     let ticks = |args: &str| {
         let line = format!("plan leaf.toml --timer-hz 1MHz --sync-falls false --min-gap 0 --emit json {args}");
-        let run = folder.exec(&line).well();
+        let run = folder.run(&line).well();
         let json: Value = serde_json::from_str(&run.out).unwrap();
         (json["delay_ticks"].as_u64(), number(&json["triggers"][0], "from_edge_ticks"), run.err)
     };
-    folder.exec("fit trace.csv --sync 0 --out leaf.toml").well();
+    folder.run("fit trace.csv --sync 0 --out leaf.toml").well();
     let (delay, early, _) = ticks("--set-up emulated");
     assert_eq!(delay, Some(2001));
     // An X contact: the edge comes when the shutter is open.
-    folder.exec("fit trace.csv --sync 4.1ms --out leaf.toml").tells(&["the edge of the sync comes after"]);
+    folder.run("fit trace.csv --sync 4.1ms --out leaf.toml").tells(&["the edge of the sync comes after"]);
     let line = "plan leaf.toml --timer-hz 1MHz --sync-falls false --min-gap 0 --set-up in_path";
     let told = "delay: triggers 0 to 3 come, the first 1.343 ms before the edge of the sync; all of up to 3 triggers \
                 come behind it; an earlier contact";
-    folder.keeps(&[(line, "before the edge of the sync")]);
-    has(&folder.exec(line).err, &[&told[..30], "an earlier contact gives more time"], &[]);
+    folder.refuses(&[(line, "before the edge of the sync")]);
+    has(&folder.run(line).err, &[&told[..30], "an earlier contact gives more time"], &[]);
     let (delay, open, _) = ticks("--set-up in_path --fully-open --triggers 2");
     assert_eq!((delay, open > 0.0), (Some(0), true));
     // A hand's own wins, and that it differs is told.
@@ -456,9 +419,9 @@ fn no_delay_is_older_than_its_trace() {
 fn several_fits_keep_what_a_user_wrote() {
     let folder = folder("kept_speeds");
     folder.write("v1.5.csv", leaf(2.0));
-    folder.exec("fit trace.csv v1.5.csv --out .").well();
+    folder.run("fit trace.csv v1.5.csv --out .").well();
     folder.write("v1.5.toml", folder.text("v1.5.toml").replace("# min_gap = 0.1", "min_gap = 0.2"));
-    let err = folder.exec("fit trace.csv v1.5.csv --nominal 1/200,1/100 --out .").well().err;
+    let err = folder.run("fit trace.csv v1.5.csv --nominal 1/200,1/100 --out .").well().err;
     assert!(err.starts_with("wrote ./trace.toml\nwrote ./v1.5.toml\nnext: "), "{err}");
     has(&folder.text("v1.5.toml"), &["nominal = 10.0\n", "\nmin_gap = 0.2"], &[]);
 }

@@ -56,15 +56,6 @@ pub struct Run {
     pub err: String,
 }
 
-/// Runs the program.
-pub fn run(args: &[&str]) -> Run {
-    let (mut out, mut err) = (Vec::new(), Vec::new());
-    let args = ["shutter"].iter().chain(args).map(Into::into);
-    let code = shutter::command::run(args, &mut out, &mut err);
-    let [out, err] = [out, err].map(|text| String::from_utf8(text).unwrap());
-    Run { code: Some(code.into()), out, err }
-}
-
 impl Run {
     /// The run, which ended well.
     #[track_caller]
@@ -92,13 +83,6 @@ impl Run {
     pub fn tells(self, words: &[&str]) -> Self {
         has(&self.err, words, &[]);
         self.well()
-    }
-
-    /// It was refused for this reason, and printed nothing.
-    #[track_caller]
-    pub fn refused(self, reason: &str) {
-        assert!(self.code == Some(2) && self.err.contains(reason), "{reason}: {self:?}");
-        assert_eq!(self.out, "", "{reason}");
     }
 }
 
@@ -143,17 +127,9 @@ impl Folder {
         self.names().into_iter().map(file).collect()
     }
 
-    /// Runs the program with these arguments, of which those that end like a file or begin like a folder are here.
+    /// Runs the program here with these arguments, as a shell takes them.
     pub fn run(&self, args: &str) -> Run {
-        let ends = [".csv", ".toml", ".wav", ".rs", ".h", ".svg", ".json"];
-        let is_here = |arg: &str| arg.starts_with("./") || ends.iter().any(|end| arg.ends_with(end));
-        let here = format!("{}/", self.0.display());
-        let args = args.split_whitespace();
-        let args = args.map(|arg| if is_here(arg) { format!("{here}{arg}") } else { arg.into() });
-        let args: Vec<String> = args.collect();
-        let run = run(&args.iter().map(String::as_str).collect::<Vec<_>>());
-        let [out, err] = [run.out, run.err].map(|text| text.replace(&here, ""));
-        Run { out, err, ..run }
+        self.shell(&format!("exec \"$shutter\" {args}"))
     }
 
     /// Runs a line of a shell here, with the program as `$shutter`.
@@ -171,12 +147,15 @@ impl Folder {
         serde_json::from_str(&self.run(&format!("fit {args} --report json")).well().out).unwrap()
     }
 
-    /// Each run is refused for its reason, prints nothing, and leaves all files as they were.
+    /// Each run is refused for its reason, leaves all files as they were, and prints nothing but the report of a fit
+    /// whose files fail.
     #[track_caller]
     pub fn refuses(&self, runs: &[(&str, &str)]) {
         for (args, reason) in runs {
             let before = self.all();
-            self.run(args).refused(reason);
+            let run = self.run(args);
+            assert!(run.code == Some(2) && run.err.contains(reason), "{args}: {run:?}");
+            assert!(run.out.is_empty() || run.out.contains("\nexposure "), "{args}: {}", run.out);
             assert!(self.all() == before, "{args}");
         }
     }
