@@ -180,33 +180,31 @@ struct Module<'a> {
     plan: &'a Plan,
     /// The lines of its head.
     head: Vec<String>,
-    /// From the edge, if there is a delay.
-    edge: Option<Edge>,
+    /// Is there a delay from an edge?
+    has_edge: bool,
+    /// What the modules of one array have in common, and what is each one's own.
+    common: Vec<Constant>,
+    own: Vec<Constant>,
     /// When to switch on and off, or when to trigger.
     ticks: Ticks,
     /// From where these count.
     origin: &'static str,
 }
 
-struct Edge {
-    falls: bool,
-    /// What the delay is.
-    about: &'static str,
-    delay: u32,
-    hold_off: u32,
+/// What a constant is, its name, and its value.
+type Constant = (&'static str, &'static str, Literal);
+
+enum Literal {
+    Rate(u32),
+    Falls(bool),
+    Count(usize),
+    Ticks(u32),
 }
 
 enum Ticks {
     Triggers(Vec<u32>),
     Pulses(Vec<(u32, u32)>),
 }
-
-/// What `HOLD_OFF_TICKS` is.
-const HOLD_OFF: &str =
-    "So long after an edge no other one counts: the frame is over then, and lamp and sync are ready.";
-
-/// What `SYNC_FALLS` is.
-const SYNC_FALLS: &str = "Which edge of the camera's sync counts";
 
 /// From where the ticks of several modules count.
 fn origin(modules: &[Module]) -> &'static str {
@@ -229,19 +227,24 @@ impl<'a> Module<'a> {
             (0, Some(_)) => "From the edge of the camera's sync to the start of opening, less the lamp's lag.",
             (0, None) => "From the edge of the camera's sync to the start of opening.",
         };
-        let edge = sync.delay.map(|delay| Edge {
-            falls: delay.falls.unwrap_or_default(),
-            about,
-            delay: sync.ticks,
-            hold_off: plan.hold_off,
-        });
+        let mut common = vec![("The timer's rate.", "TIMER_HZ", Literal::Rate(plan.timer.hz))];
+        let mut own = vec![("So many flashes.", "COUNT", Literal::Count(rows.len()))];
+        if let Some(delay) = sync.delay {
+            let edge = "Which edge of the camera's sync counts: the falling one, or the rising one.";
+            common.push((edge, "SYNC_FALLS", Literal::Falls(delay.falls.unwrap_or_default())));
+            own.push((about, "DELAY_TICKS", Literal::Ticks(sync.ticks)));
+            let over =
+                "So long after an edge no other one counts: the frame is over then, and lamp and sync are ready.";
+            own.push((over, "HOLD_OFF_TICKS", Literal::Ticks(plan.hold_off)));
+        }
         let ticks = match plan.lamp.has_pulses() {
             true => Ticks::Pulses(rows.iter().filter_map(|row| row.on_ticks.zip(row.off_ticks)).collect()),
             false => Ticks::Triggers(rows.iter().map(|row| row.ticks).collect()),
         };
-        let is_moved = edge.is_some() && (sync.lag.is_some() || sync.early > 0);
+        let has_edge = sync.delay.is_some();
+        let is_moved = has_edge && (sync.lag.is_some() || sync.early > 0);
         let origin = if is_moved { DELAYED } else { OPENED };
-        Self { scene, plan, head, edge, ticks, origin }
+        Self { scene, plan, head, has_edge, common, own, ticks, origin }
     }
 }
 

@@ -127,23 +127,15 @@ fn of_times(plan: &Plan) -> Vec<Fact> {
     vec![Fact::words("shutter", "no curve: trigger times as measured"), Fact::words("opens", told)]
 }
 
-/// The first time on the way from `dark` to `open` at which the shutter is half open.
+/// A time between `dark` and `open` at which the shutter is half open, as near as f32 are.
 fn half(curve: &ShutterCurve, dark: f32, open: f32) -> f32 {
-    const STEPS: u16 = 1024;
-    let is_half = |t: f32| curve.openness(t) >= 0.5;
-    let step = |i: u16| dark + (open - dark) * (f32::from(i) / f32::from(STEPS));
-    let Some(i) = (0..STEPS).find(|&i| is_half(step(i))) else { return open };
-    if i == 0 {
-        return dark;
-    }
-    // Between a step that is not and one that is: as near as f32 are.
-    let (mut below, mut above) = (step(i - 1), step(i));
+    let (mut below, mut above) = (dark, open);
     loop {
         let middle = below + 0.5 * (above - below);
         if middle == below || middle == above {
             return above;
         }
-        *(if is_half(middle) { &mut above } else { &mut below }) = middle;
+        *(if curve.openness(middle) >= 0.5 { &mut above } else { &mut below }) = middle;
     }
 }
 

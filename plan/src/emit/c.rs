@@ -1,24 +1,13 @@
 //! A plan as a header of C99 and C++11.
 
-use super::{HOLD_OFF, MADE_BY, Module, SYNC_FALLS, Ticks, name, rows};
+use super::{Constant, Literal, MADE_BY, Module, Ticks, name, rows};
 use crate::scene::fnv;
 
 /// The header of a plan, its names those of the scene.
 pub fn header(module: &Module) -> String {
-    let Module { plan, head, edge, ticks, origin, .. } = module;
-    let ((lower, upper), int, bits) = (names(module.scene), int(module), plan.timer.bits);
-    let (n, common) = (plan.triggers.len(), common(&upper, module));
+    let Module { head, has_edge, ticks, origin, .. } = module;
+    let ((lower, upper), int) = (names(module.scene), int(module));
     let head: String = head.iter().map(|line| format!(" * {line}").trim_end().to_string() + "\n").collect();
-    let delay = edge.as_ref().map_or(String::new(), |edge| {
-        let (about, delay, hold_off) = (edge.about, edge.delay, edge.hold_off);
-        format!(
-            "/* {about} */
-#define {upper}_DELAY_TICKS UINT{bits}_C({delay})
-/* {HOLD_OFF} */
-#define {upper}_HOLD_OFF_TICKS UINT{bits}_C({hold_off})
-"
-        )
-    });
     let array = |what: &str, name: &str, ticks: &mut dyn Iterator<Item = u32>| {
         let rows = rows(ticks);
         format!("\n/* {what}, {origin}. */\nstatic const {int} {lower}_{name}[{upper}_COUNT] = {{\n{rows}}};\n")
@@ -38,9 +27,8 @@ pub fn header(module: &Module) -> String {
             format!("({int})(*on + width);"),
         ),
     };
-    let from_edge = edge.as_ref().map_or(String::new(), |_| {
-        format!(
-            "
+    let from_edge = format!(
+        "
 /* When to switch flash `i` on, and when off, in ticks after the edge: {doc}. */
 static inline void {lower}_on_off(uint32_t i, {int} width, {int} *on, {int} *off)
 {{
@@ -55,9 +43,10 @@ static inline {int} {lower}_due({int} edge, {int} ticks)
     return ({int})(edge + {upper}_DELAY_TICKS + ticks); /* wrapping */
 }}
 "
-        )
-    });
-    let body = format!("{common}#define {upper}_COUNT {n}\n{delay}{arrays}{from_edge}");
+    );
+    let from_edge = if *has_edge { from_edge } else { String::new() };
+    let [common, own] = [&module.common, &module.own].map(|all| constants(all, &upper, module));
+    let body = format!("{INCLUDE}{common}{own}{arrays}{from_edge}");
     format!("/*\n{head} */\n{}", guarded(&upper, &lower, &body))
 }
 
@@ -71,18 +60,18 @@ pub fn headers(called: &str, modules: &[Module]) -> String {
         "    /* See its _DELAY_TICKS. */\n    {int} delay_ticks;\n    /* See its _HOLD_OFF_TICKS. */\n    {int} \
          hold_off_ticks;\n"
     );
-    let delay = if one.edge.is_some() { delay } else { String::new() };
+    let delay = if one.has_edge { delay } else { String::new() };
     let fields: String = arrays.iter().map(|array| format!("    const {int} *{array};\n")).collect();
     let speed = |module: &Module| {
         let (lower, upper) = names(module.scene);
         let ticks = format!("{upper}_DELAY_TICKS, {upper}_HOLD_OFF_TICKS, ");
-        let delay = if one.edge.is_some() { ticks } else { String::new() };
+        let delay = if one.has_edge { ticks } else { String::new() };
         let arrays = arrays.iter().map(|array| format!("{lower}_{array}")).collect::<Vec<_>>().join(", ");
         format!("    {{\"{lower}\", {upper}_COUNT, {delay}{arrays}}},\n")
     };
-    let (speeds, common) = (modules.iter().map(speed).collect::<String>(), common(&upper, one));
+    let (speeds, common) = (modules.iter().map(speed).collect::<String>(), constants(&one.common, &upper, one));
     let body = format!(
-        "{common}#define {upper}_SPEEDS {n}
+        "{INCLUDE}{common}#define {upper}_SPEEDS {n}
 
 typedef struct {{
     const char *name;
@@ -100,14 +89,20 @@ static const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{
     format!("/*\n * {MADE_BY}: {}, a shutter of {n} speeds.\n */\n\n{headers}{whole}", name::shown(called))
 }
 
-/// The timer, and the edge.
-fn common(upper: &str, module: &Module) -> String {
-    let hz = module.plan.timer.hz;
-    let edge = module.edge.as_ref().map_or(String::new(), |edge| {
-        let falls = u8::from(edge.falls);
-        format!("/* {SYNC_FALLS}: the falling one (1), or the rising one (0). */\n#define {upper}_SYNC_FALLS {falls}\n")
-    });
-    format!("#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({hz})\n{edge}")
+const INCLUDE: &str = "#include <stdint.h>\n\n";
+
+/// Constants, as macros.
+fn constants(all: &[Constant], upper: &str, module: &Module) -> String {
+    let constant = |(about, name, value): &Constant| {
+        let value = match value {
+            Literal::Rate(hz) => format!("UINT32_C({hz})"),
+            Literal::Falls(falls) => u8::from(*falls).to_string(),
+            Literal::Count(n) => n.to_string(),
+            Literal::Ticks(ticks) => format!("UINT{}_C({ticks})", module.plan.timer.bits),
+        };
+        format!("/* {about} */\n#define {upper}_{name} {value}\n")
+    };
+    all.iter().map(constant).collect()
 }
 
 /// The type of the timer's count.

@@ -1,6 +1,6 @@
 //! A plan as a module of Rust, which needs no crate unless its curve is asked for.
 
-use super::{HOLD_OFF, MADE_BY, Module, SYNC_FALLS, Ticks, name, rows};
+use super::{Constant, Literal, MADE_BY, Module, Ticks, name, rows};
 use crate::shape::Shape;
 
 /// Said of each item: a firmware need not use them all.
@@ -12,13 +12,9 @@ const SHUTTER: &str = "The shutter, its times in seconds.";
 
 /// The file of a module that is called as the scene is.
 pub fn module(module: &Module, curve: bool) -> String {
-    let Module { plan, head, edge, ticks, origin, .. } = module;
-    let (int, n) = (int(module), plan.triggers.len());
+    let Module { plan, head, has_edge, ticks, origin, .. } = module;
+    let int = int(module);
     let head: String = head.iter().map(|line| format!("// {line}").trim_end().to_string() + "\n").collect();
-    let delay = edge.as_ref().map_or(String::new(), |edge| {
-        item(edge.about, &format!("DELAY_TICKS: {int} = {}", grouped(edge.delay)))
-            + &item(HOLD_OFF, &format!("HOLD_OFF_TICKS: {int} = {}", grouped(edge.hold_off)))
-    });
     let (what, (name, of), rows) = (
         what(ticks),
         array(ticks, int),
@@ -28,7 +24,7 @@ pub fn module(module: &Module, curve: bool) -> String {
         },
     );
     let table = format!("\n/// {what}, {origin}.\n{TABLE}\npub const {name}: [{of}; COUNT] = [\n{rows}];\n");
-    let from_edge = edge.as_ref().map_or(String::new(), |_| from_edge(ticks, int));
+    let from_edge = if *has_edge { from_edge(ticks, int) } else { String::new() };
     let shutter = plan.curve.as_ref().filter(|_| curve).map_or(String::new(), |curve| {
         let (shutter, uses) = (constructor(&curve.shape), "use shutter_curve::{ShutterCurve, expect};");
         format!(
@@ -36,8 +32,8 @@ pub fn module(module: &Module, curve: bool) -> String {
              pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::{shutter});\n"
         )
     });
-    let (common, count) = (common(module), item("So many flashes.", &format!("COUNT: usize = {n}")));
-    format!("{head}{common}{count}{delay}{table}{from_edge}{shutter}")
+    let [common, own] = [&module.common, &module.own].map(|all| constants(all, int));
+    format!("{head}{common}{own}{table}{from_edge}{shutter}")
 }
 
 /// The file of a module with one module for each plan, and an array of them all.
@@ -49,7 +45,7 @@ pub fn modules(called: &str, modules: &[Module], curve: bool) -> String {
     // What each field is, its type, and its item in the module of a speed.
     let mut fields = vec![("See `DELAY_TICKS`.", "delay_ticks", int, "", "DELAY_TICKS")];
     fields.push(("See `HOLD_OFF_TICKS`.", "hold_off_ticks", int, "", "HOLD_OFF_TICKS"));
-    fields.retain(|_| one.edge.is_some());
+    fields.retain(|_| one.has_edge);
     let (about, slice) = (format!("{what}, {origin}."), format!("&'static [{of}]"));
     fields.push((&about, &field, &slice, "&", array));
     let shutter = (SHUTTER, "shutter", "&'static shutter_curve::ShutterCurve", "&", "SHUTTER");
@@ -67,7 +63,7 @@ pub fn modules(called: &str, modules: &[Module], curve: bool) -> String {
         format!("\n/// A speed of the shutter.\npub mod {} {{\n{body}}}\n", name::module(module.scene))
     };
     let (declared, speeds) = (fields.iter().map(declared).collect::<String>(), modules.iter().map(speed));
-    let (shown, common, speeds) = (name::shown(called), common(one), speeds.collect::<String>());
+    let (shown, common, speeds) = (name::shown(called), constants(&one.common, int), speeds.collect::<String>());
     let own: String = modules.iter().map(own).collect();
     format!(
         "// {MADE_BY}: {shown}, a shutter of {n} speeds.
@@ -88,21 +84,18 @@ pub static SPEEDS: [Speed; {n}] = [
     )
 }
 
-/// A constant.
-fn item(about: &str, constant: &str) -> String {
-    format!("\n/// {about}\n{ALLOW}\npub const {constant};\n")
-}
-
-/// What the speeds of a shutter have in common: the timer, and the edge.
-fn common(module: &Module) -> String {
-    let edge = module.edge.as_ref();
-    item("The timer's rate.", &format!("TIMER_HZ: u32 = {}", grouped(module.plan.timer.hz)))
-        + &edge.map_or(String::new(), |edge| {
-            item(
-                &format!("{SYNC_FALLS}: the falling one, or the rising one."),
-                &format!("SYNC_FALLS: bool = {}", edge.falls),
-            )
-        })
+/// Constants, of which ticks have the type of the timer's count.
+fn constants(all: &[Constant], int: &str) -> String {
+    let constant = |(about, name, value): &Constant| {
+        let value = match value {
+            Literal::Rate(hz) => format!("u32 = {}", grouped(*hz)),
+            Literal::Falls(falls) => format!("bool = {falls}"),
+            Literal::Count(n) => format!("usize = {n}"),
+            Literal::Ticks(ticks) => format!("{int} = {}", grouped(*ticks)),
+        };
+        format!("\n/// {about}\n{ALLOW}\npub const {name}: {value};\n")
+    };
+    all.iter().map(constant).collect()
 }
 
 /// What a table has.
