@@ -312,42 +312,33 @@ fn speeds_that_do_not_go_together_are_refused() {
         plans[1].1 = planned(BOX, &format!("{curve}; {changes}"));
         plans
     };
-    let refused = |form, plans: &[_]| several(form, "camera", plans, false).unwrap_err();
-    for (changes, reason) in [
-        ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; one list is for one timer"),
-        ("", "delay: 1-500 has one and box has none; an array needs all or none"),
-        ("delay = 1; sync_falls = false", "sync_falls: 1-500 and box differ; one list is for one edge"),
-        (
-            "delay = 1; sync_falls = true; set_up = 'in_path'",
-            "set_up: 1-500 and box differ; one list is for one set-up",
-        ),
-        (
-            "delay = 1; sync_falls = true; pulse = 0.1",
-            "pulses: one of 1-500 and box has them; an array needs all or none",
-        ),
-        ("delay = 1; sync_falls = true; lamp_lag = 0.1", "lamp_lag: 1-500 and box differ; one list is for one lamp"),
+    let refused = |form, plans: &[_]| several(form, "camera", plans, false).err();
+    // A row tells less than an object, and an array's elements tell the same.
+    let (arrays, lists) = (&[Form::Rust, Form::C][..], &[Form::Rust, Form::C, Form::Csv][..]);
+    let edge = "delay = 1; sync_falls = true; ";
+    for (forms, changes, reason) in [
+        (lists, "timer_hz = 999; lamp_lag = 0.1", "timer_hz: 1000000 in 1-500, 999 in box; one list is for one timer"),
+        (arrays, "", "delay: 1-500 has one and box has none; an array needs all or none"),
+        (lists, "delay = 1; sync_falls = false", "sync_falls: 1-500 and box differ; one list is for one edge"),
+        (lists, &format!("{edge}set_up = 'in_path'"), "set_up: 1-500 and box differ; one list is for one set-up"),
+        (lists, &format!("{edge}lamp_lag = 0.1"), "lamp_lag: 1-500 and box differ; one list is for one lamp"),
+        (arrays, &format!("{edge}pulse = 0.1"), "pulses: one of 1-500 and box has them; an array needs all or none"),
     ] {
-        assert_eq!([Form::Rust, Form::C].map(|form| refused(form, &with(changes))), [reason; 2]);
+        for form in [Form::Rust, Form::C, Form::Csv, Form::Json] {
+            let is_refused = forms.contains(&form).then_some(reason);
+            assert_eq!(refused(form, &with(changes)).as_deref(), is_refused, "{form:?}: {changes}");
+        }
     }
-    // A row tells neither rate nor edge nor set-up, and an object does.
-    let plans = with("timer_hz = 999");
-    assert!(refused(Form::Csv, &plans).starts_with("timer_hz: "));
-    let other = with("delay = 1; sync_falls = false");
-    assert!(refused(Form::Csv, &other).starts_with("sync_falls: "));
     // The first has no edge, and the two behind it differ.
-    let plain = ("plain".into(), with("")[1].1.clone());
-    assert!(refused(Form::Csv, &[plain, other[0].clone(), other[1].clone()]).starts_with("sync_falls: 1-500 and box "));
-    assert!(refused(Form::Csv, &with("set_up = 'in_path'")).starts_with("set_up: "));
-    let plans = [plans[0].clone(), plans[0].clone()];
+    let [plain, other] = ["", "delay = 1; sync_falls = false"].map(with);
+    let three = [("plain".into(), plain[1].1.clone()), other[0].clone(), other[1].clone()];
+    assert_eq!(refused(Form::Csv, &three).unwrap(), "sync_falls: 1-500 and box differ; one list is for one edge");
     for form in [Form::Csv, Form::Json] {
-        assert_eq!(refused(form, &plans), "1-500 and 1-500 would both be called 1-500");
+        let twice = [plain[0].clone(), plain[0].clone()];
+        assert_eq!(refused(form, &twice).unwrap(), "1-500 and 1-500 would both be called 1-500");
     }
-    let plans = with("timer_hz = 999; lamp_lag = 0.1");
-    assert!(several(Form::Json, "camera", &plans, false).is_ok());
-    let mut plans = speeds(["1-500", "box", "slow speed"], "");
-    plans[1].0 = "Slow-Speed".into();
-    let reason = "Slow-Speed and slow speed would both be called slow_speed";
-    assert_eq!(refused(Form::C, &plans), reason);
+    let plans = speeds(["1-500", "Slow-Speed", "slow speed"], "");
+    assert_eq!(refused(Form::C, &plans).unwrap(), "Slow-Speed and slow speed would both be called slow_speed");
 }
 
 #[test]

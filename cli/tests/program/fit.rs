@@ -12,7 +12,7 @@ use shutter_plan::plan::Plan;
 use shutter_plan::scene;
 use strum::IntoEnumIterator;
 
-use crate::generator::{Case, Grain, Random, Recorder, Truth, each};
+use crate::generator::{Case, Random, Recorder, Truth, each};
 use crate::scenes::MEASURED;
 use crate::shutters::{Draw, TUNED};
 use crate::support::{Folder, SCENES, codes, csv, keys, leaf, number, rows, sampled, trapezoid};
@@ -149,17 +149,6 @@ fn what_cannot_be_fitted_is_refused() {
     assert!(asked(&Options { light: Light::Down, ..Options::default() }).is_some());
 }
 
-#[test]
-fn full_light_scales_exposure_and_efficiency_and_leaves_the_triggers() {
-    let trace = sampled(trapezoid, 1000, 0.005);
-    let [plain, dimmed] =
-        [None, Some(0.1 + 2.0 / 0.8)].map(|full| fitted(&trace, &Options { full, ..Options::default() }).unwrap());
-    assert!((dimmed.peak - 0.8).abs() < 1e-3);
-    assert!((dimmed.exposure.value - 0.004).abs() < 1e-5);
-    assert!((dimmed.efficiency.value - 0.8 * plain.efficiency.value).abs() < 1e-3);
-    assert_eq!(dimmed.triggers, plain.triggers);
-}
-
 /// A trace of a shutter.
 fn traced(shutter: &str, samples: f64, noise: f64, random: &mut Random) -> Case {
     let truth = Draw::tuned(random).shutter(shutter);
@@ -279,41 +268,6 @@ fn a_tolerance_asks_for_the_simplest_within_it() {
     let most = loose.best().shift;
     assert_eq!(within(Tolerance::Seconds(1.001 * most)).chosen, Kind::Trapezoid);
     assert!(within(Tolerance::Seconds(0.999 * most)).chosen > Kind::Trapezoid);
-}
-
-#[test]
-fn correlated_samples_count_for_fewer() {
-    // Of a noise that is correlated by 0.8 from one sample to the next, nine are as good as an independent one.
-    for (grain, least, most) in [(Grain::White, 0.8, 1.0), (Grain::Coloured, 0.07, 0.18)] {
-        for seed in 0..2 {
-            let mut random = Random::new(seed);
-            let truth = Draw::tuned(&mut random).shutter("straight ramps");
-            let case = Recorder { grain, ..Recorder::new(3000.0, 1.0, 0.01) }.record(truth, &mut random);
-            let fit = case.fitted(&Options::default());
-            let shutter_fit::Reason::Criterion { effective } = fit.reason else { panic!() };
-            let share = effective / fit.samples.times.len() as f64;
-            assert!((least..=most).contains(&share), "{grain:?} {seed}: {share}");
-        }
-    }
-}
-
-/// A cubic ends before an exponential tail does, and no residual shows the light that it leaves out. It moves the last
-/// trigger most.
-#[test]
-fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
-    let (mut covered, mut stated, mut all) = (0.0, 0.0, 0.0);
-    for seed in 100..116 {
-        let mut random = Random::new(seed);
-        let case = traced("liquid crystal", 4000.0, 0.006, &mut random);
-        let fit = case.fitted(&Options::default());
-        let last = fit.triggers[15];
-        covered += f64::from((last.value - case.trigger(15.5 / 16.0)).abs() <= 1.96 * last.error);
-        stated += last.error / fit.exposure.value;
-        all += 1.0;
-    }
-    assert!(covered / all > 0.9, "covered: {}", covered / all);
-    // And not because anything would be.
-    assert!(stated / all < 3e-3, "stated: {}", stated / all);
 }
 
 /// The exposure counts in full light, and noise hides how high a peak without a plateau is: not as a linear model has

@@ -339,46 +339,37 @@ fn a_fit_replaces_its_table_and_nothing_else() {
     has(&scene(), &["[shutter]\nunit = \"µs\"\nopen_start = 20", "\ndelay = 20"], &[]);
     // What a hand changed in the shutter is not lost, be it a comment.
     let below = "you have changed what a fit wrote below [shutter]; what is yours belongs below [flashes]";
-    for (from, to) in [
-        ("open_start", "# mine\nopen_start"),
-        ("\nshots", " # mine\nshots"),
-        ("delay = ", "delay = 1"),
-        ("checksum = \"", "nominal = 1\nchecksum = \""),
-        ("unit = \"ms\"", "unit = \"us\""),
+    let foreign = "it holds no scene that a fit wrote; --force replaces it all";
+    let edited = |from, to| first.replacen(from, to, 1);
+    for (text, reason) in [
+        (edited("open_start", "# mine\nopen_start"), below),
+        (edited("\nshots", " # mine\nshots"), below),
+        (edited("delay = ", "delay = 1"), below),
+        (edited("unit = \"ms\"", "unit = \"us\""), below),
+        (edited("checksum = \"", "nominal = 1\nchecksum = \""), foreign),
+        (MEASURED.replace("[shutter.measured]", "[shutter.own]"), foreign),
+        ("[package]\nname = 'mine'\n".into(), foreign),
+        (with(TRAPEZOID, ""), "no fit wrote its [shutter]; --force"),
     ] {
-        let edited = first.replacen(from, to, 1);
-        folder.write("leaf.toml", &edited);
-        folder.refuses(&[(
-            "fit slow.csv --out leaf.toml",
-            if to.contains("nominal") { "that a fit wrote" } else { below },
-        )]);
-        if !to.contains("nominal") {
+        folder.write("leaf.toml", &text);
+        folder.refuses(&[("fit slow.csv --out leaf.toml", reason)]);
+        if reason == below {
             let told = "doubt        what a fit wrote below [shutter] was changed by hand since";
             has(&folder.run("plan leaf.toml").well().out, &[told], &[]);
             fit("trace.csv --sync 0 --force");
-            assert_eq!(apart(&scene()).0, apart(&edited).0);
+            assert_eq!(apart(&scene()).0, apart(&text).0);
         }
     }
+    fit("trace.csv --sync 0 --force");
+    has(&scene(), &["triggers = 7\ntimer_hz = 1000\n"], &["# Yours"]);
     // Editors may end lines otherwise.
     folder.write("leaf.toml", first.replace('\n', "\r\n"));
     fit("trace.csv --sync 0");
-    // What no fit wrote, and an option against what is the user's.
-    folder.write("leaf.toml", &first);
+    // An option against what is the user's.
     folder.refuses(&[(
         "fit trace.csv --triggers 6 --out leaf.toml",
         "it has triggers = 16 below [flashes], which are yours",
     )]);
-    for text in [MEASURED.replace("[shutter.measured]", "[shutter.own]"), "[package]\nname = 'mine'\n".into()] {
-        folder.write("leaf.toml", text);
-        folder.refuses(&[(
-            "fit trace.csv --out leaf.toml",
-            "it holds no scene that a fit wrote; --force replaces it all",
-        )]);
-    }
-    folder.write("leaf.toml", with(TRAPEZOID, ""));
-    folder.refuses(&[("fit trace.csv --out leaf.toml", "no fit wrote its [shutter]; --force")]);
-    fit("trace.csv --sync 0 --force");
-    has(&scene(), &["triggers = 7\ntimer_hz = 1000\n"], &["# Yours"]);
     // Flashes that do not go with the shutter are told, and the scene is there for its user to mend them.
     folder.write("leaf.toml", first.replace("# min_gap = 0.1", "min_gap = 9"));
     has(&fit("trace.csv --sync 0"), &["warning: leaf.toml: as it is, triggers: triggers 0 and 1 come "], &[]);

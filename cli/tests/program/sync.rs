@@ -195,23 +195,6 @@ pub fn shots() -> [String; 2] {
     [Record { noise: 0.0, ..Record::new(5, 3) }.csv(), Record::new(1, 4).csv()]
 }
 
-/// The scene has the spread and the edge that were put in, and a fit by the same leaves all as it is.
-#[test]
-fn the_spread_is_kept() {
-    let (folder, record) = (Folder::new("kept_spread"), Record { noise: 0.0, ..Record::new(5, 3) });
-    folder.write("five.csv", record.csv());
-    let fit = || {
-        folder.run("fit five.csv --sync CH2 --out leaf.toml --triggers 4").well();
-        folder.text("leaf.toml")
-    };
-    let (first, second) = (fit(), fit());
-    assert_eq!(first, second);
-    let json = folder.run("plan leaf.toml --emit json --set-up in_path --timer-hz 1MHz --min-gap 0").well().out;
-    let json: Value = serde_json::from_str(&json).unwrap();
-    assert!((number(&json, "delay_spread_s") - record.spread()).abs() < 3e-6);
-    assert_eq!((&json["sync_falls"], &json["set_up"]), (&true.into(), &"in_path".into()));
-}
-
 /// Shots in files of their own count together if they are of one speed.
 #[test]
 fn the_shots_of_several_files_count_together() {
