@@ -171,17 +171,13 @@ fn facts(fit: &Fit) -> Vec<Fact> {
     .into()
 }
 
-/// Does a curve explain the trace? Where what was recorded is another thing than the light, nothing tells that.
-fn test(fit: &Fit) -> &'static str {
-    const VOID: [&str; 5] = ["clipped", "cut_tail", "overload", "pulsed", "undershoot"];
-    let is_void = |it: &Warning| VOID.contains(&it.code());
-    match fit.from {
-        From::Trace => "no curve explains the trace: the flashes are at the trace's own times",
-        _ if !fit.test.explained => "no curve explains the trace",
-        _ if !fit.test.tested => "untested: there is too little dark to know the noise by",
-        _ if fit.exposure.error > 0.5 * fit.exposure.value => "untested: the trace tells too little",
-        _ if fit.warnings.iter().any(is_void) => "untested: what is recorded is not the light alone",
-        _ => "the curve explains the trace",
+/// Does a curve explain the trace?
+fn test(fit: &Fit) -> String {
+    match report::untested(fit) {
+        _ if fit.from == From::Trace => "no curve explains the trace: the flashes are at the trace's own times".into(),
+        _ if !fit.test.explained => "no curve explains the trace".into(),
+        Some(why) => format!("untested: {why}"),
+        None => "the curve explains the trace".into(),
     }
 }
 

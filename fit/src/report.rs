@@ -141,11 +141,24 @@ pub fn facts(fit: &Fit) -> Vec<Fact> {
     [curve, delays, ramps.into_iter().collect(), light].concat()
 }
 
+/// Why nothing tells whether the model explains the trace, where nothing does.
+pub fn untested(fit: &Fit) -> Option<&'static str> {
+    // Then what was recorded is another thing than the light.
+    const VOID: [&str; 5] = ["clipped", "cut_tail", "overload", "pulsed", "undershoot"];
+    match fit.exposure {
+        _ if !fit.test.tested => Some("there is too little dark to know the noise by"),
+        Measured { value, error } if error > 0.5 * value => Some("the trace tells too little"),
+        _ => {
+            fit.warnings.iter().any(|it| VOID.contains(&it.code())).then_some("what is recorded is not the light alone")
+        }
+    }
+}
+
 fn judgement(fit: &Fit) -> String {
-    let Test { explained, tested, sigma, share, at, .. } = fit.test;
-    match (explained, tested) {
-        (true, false) => "untested: there is too little dark to know the noise by".into(),
-        (true, true) => "the model explains the trace".into(),
+    let Test { explained, sigma, share, at, .. } = fit.test;
+    match (explained, untested(fit)) {
+        (true, Some(why)) => format!("untested: {why}"),
+        (true, None) => "the model explains the trace".into(),
         _ => format!(
             "structure that the model has not: {} % of the light,\n             {} ({} standard deviations)",
             short(100.0 * share.abs(), 2),

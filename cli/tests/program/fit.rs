@@ -6,7 +6,7 @@ use std::fs;
 
 use serde_json::Value;
 use shutter_fit::trace::{self, Light, Recording, Refusal, Tell, Trace, Warning};
-use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit};
+use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit, report};
 use shutter_plan::fitted::{self, Zero};
 use shutter_plan::plan::Plan;
 use shutter_plan::scene;
@@ -59,6 +59,7 @@ fn what_is_doubtful_is_told() {
     still(&lowered, &|_| lowered.warnings == [Warning::Inverted]);
     let clipped = with(&|_, v| v.min(1.9));
     is_told(&clipped, &|w| matches!(w, Warning::Clipped { at: 1.9, share } if *share > 0.4));
+    assert!(report::untested(&clipped).is_some() && report::untested(&lowered).is_none());
     let near = |x: f64, to: f64, by: f64| (x - to).abs() < by;
     still(
         &with(&|t, v| v + 0.04 * (std::f64::consts::TAU * 400.0 * t).sin()),
