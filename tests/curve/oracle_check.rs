@@ -55,7 +55,7 @@ fn the_cdf_undoes_its_inverse() {
     for (i, curve) in hard.chain((0..500).map(|i| random_density(1, i))).enumerate() {
         let exact = Exact::new(&curve);
         for u in hard_us(&exact, i as u64, 32) {
-            let (time, part) = (exact.inverse_cdf(u), Dd::from(u));
+            let time = exact.inverse_cdf(u);
             if u == 0.0 || u == 1.0 {
                 let end = if u == 0.0 { curve.open_start() } else { curve.close_end() };
                 assert_eq!(time, Dd::from(end));
@@ -63,35 +63,16 @@ fn the_cdf_undoes_its_inverse() {
             }
             // A double-double holds a time of this size no better than so.
             let step = Dd::from(time.hi.abs() * exp2(-104));
-            let (low, high) = (exact.cdf(time - step), exact.cdf(time + step));
-            // Relative to the nearer end.
+            // From the nearer end, and relative to it.
+            let past = |t| if u < 0.5 { exact.cdf(t) - u } else { Dd::ONE - u - exact.complement_dd(t) };
+            let (low, high) = (past(time - step).hi, -past(time + step).hi);
             let slack = 1e-20 * u.min(1.0 - u) as f64;
-            let (low, high) = ((low - part).hi, (part - high).hi);
             assert!(low <= slack && high <= slack, "u = {u:e}, {low:e} {high:e}: {curve:?}");
             checked += 1;
         }
     }
     println!("cdf of inverse_cdf: {checked} within 1e-20");
     assert!(checked > 1_000_000);
-}
-
-#[test]
-fn a_mirrored_or_scaled_curve_gives_mirrored_or_scaled_times() {
-    for i in 0..500 {
-        let curve = random_hard(2, i);
-        let exact = Exact::new(&curve);
-        let (mirrored, scaled) = (Exact::new(&curve.mirrored()), Exact::new(&curve.scaled(exp2(-3) as f32)));
-        for u in hard_us(&exact, i, 32) {
-            let time = exact.inverse_cdf(u);
-            assert_eq!(scaled.inverse_cdf(u), time.scale(exp2(-3)));
-            let rest = Dd::ONE - Dd::from(u);
-            let back = mirrored.inverse_cdf_dd(rest);
-            let ulp = exact.ulp_of_time(time);
-            assert!((time + back).hi.abs() < 1e-3 * ulp, "u = {u:e}, {time:?} {back:?}: {curve:?}");
-            let both = exact.cdf(time) - mirrored.complement_dd(-time);
-            assert!(both.hi.abs() <= 1e-25 * exact.cdf(time).hi, "u = {u:e}: {curve:?}");
-        }
-    }
 }
 
 #[test]
@@ -143,9 +124,6 @@ fn errors_are_measured_in_ulp() {
     assert_eq!(exact.near(0.0).cdf_ulp(1.5 * exp2(-53) as f32, 0.0), exp2(22));
     assert_eq!([exact.near(0.5).openness_ulp(1.0, 0.0), exact.near(2.0).openness_ulp(0.0, 0.0)], [0.0; 2]);
     assert_eq!(exact.near(0.5).openness_ulp(1f32.next_down(), 0.0), 0.5);
-    // The density touches 0 between two samples of time.
-    let dip = Exact::new(&Curve::single([(0.0, 0.75), (0.25, -0.25), (0.5, -0.25), (0.75, 0.75)]));
-    assert_eq!(dip.near(0.375).openness_ulp(0.0, 0.0), 0.0);
     // An ulp is at least a floor.
     let ramp = Exact::new(&Curve::single([(0.0, 0.0), (1.0, 0.0), (2.0, 0.25), (3.0, 0.5)]));
     assert_eq!(ramp.near(0.0).openness_ulp(0.125, 0.125), 1.0);

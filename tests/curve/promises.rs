@@ -13,7 +13,7 @@ use crate::support::curves::{
 use crate::support::families::{
     DESIGNS, FAMILIES, aimed, design, hard_openness, hard_times, random_hard, random_typical,
 };
-use crate::support::oracle::{Curve, Dd, Exact, Points, exp2};
+use crate::support::oracle::{Curve, Dd, Exact, exp2};
 use crate::support::promise::{
     BACKWARD, BACKWARD_FLOOR, CDF_FLOOR, CDF_STEP_BACK, DENSITY_FLOOR, FORWARD, FORWARD_MEAN, Figures, SCALAR, TICK,
     TYPICAL_TICK, VALUE,
@@ -77,25 +77,6 @@ fn ask(figures: &mut Figures, curve: &Curve, all_octaves: bool, turn: usize, is_
             asked(figures, &exact, &questions);
         }
     }
-}
-
-/// Is a design as [`random_typical`](crate::support::curves::random_typical) draws them? On these the forward error is
-/// promised.
-fn is_typical(curve: &Curve) -> bool {
-    let is_gentle = |ramp: Points| {
-        let length = ramp[3].0 - ramp[0].0;
-        let [t1, t2] = [1, 2].map(|i| (ramp[i].0 - ramp[0].0) / length);
-        let f = ramp.map(|(_, f)| f);
-        let is_first = (0.149..=0.501).contains(&t1) && (0.499..=0.851).contains(&t2);
-        length == 0.0 || is_first && f.is_sorted() && f[0] == 0.0 && f[3] == 1.0
-    };
-    let [start, end] = [curve.open_start(), curve.close_end()];
-    let ramps = (curve.open_end() - start) + (end - curve.close_start());
-    start >= -0.5 * (end - start)
-        && start <= 0.25 * (end - start)
-        && (ramps == 0.0 || ramps >= 0.1 * (end - start))
-        && is_gentle(curve.opening)
-        && is_gentle(curve.mirrored().opening)
 }
 
 /// `n` evenly spread `u`, and as many towards both ends.
@@ -165,7 +146,7 @@ fn designs() {
         let mut figures = Figures::default();
         for index in 0..designs * times() {
             let curve = design(family, index);
-            ask(&mut figures, &curve, false, index as usize, is_typical(&curve));
+            ask(&mut figures, &curve, false, index as usize, name.starts_with("typical"));
         }
         report(name, &figures);
     }
@@ -281,25 +262,16 @@ fn curves_are_as_nasty_as_meant() {
         let (t, f) = (c.opening.map(|(t, _)| t), c.opening.map(|(_, f)| f));
         let sections = [span(start, open), span(open, close), span(close, end)];
         let ([ramp, ..], whole, greatest) = (sections, span(start, end), f64::from(start.abs().max(end.abs())));
-        let (crossed, landmarks) = (span(t[2], t[1]), exact.landmarks());
+        let landmarks = exact.landmarks();
         // Halves and quarters are met by symmetry.
         let is_hit = |u: &Dd| (exp2(-60)..exp2(-34)).contains(&(Dd::from(u.to_f32()) / *u - Dd::ONE).hi.abs());
         for (name, has, least) in [
-            ("an opening ramp without length", ramp == 0.0, 200),
-            ("a plateau without length", sections[1] == 0.0, 1000),
-            ("an end of order 3 of time", ramp > 0.0 && t[2] == start, 200),
-            ("an end of order 3 of openness", f[..3] == [0.0; 3], 200),
+            ("no opening ramp", ramp == 0.0, 200),
+            ("no plateau", sections[1] == 0.0, 1000),
             ("an end of order 6", ramp > 0.0 && c.opening[..3] == [(start, 0.0); 3], 10),
-            ("handles cross", crossed > 0.0, 500),
-            ("handles cross by exactly 15/16", ramp > 0.0 && crossed == MOST_CROSSED * ramp, 200),
-            ("a jump at the start", f[0] > 0.0, 500),
-            ("open from the start on", f == [1.0; 4], 100),
+            ("handles cross by exactly 15/16", ramp > 0.0 && span(t[2], t[1]) == MOST_CROSSED * ramp, 200),
             ("a dip", f[1] < 0.5 * f[0], 100),
-            ("across time 0", start < 0.0 && end > 0.0, 500),
-            ("an inner join at time 0", open == 0.0 || close == 0.0, 300),
-            ("far from time 0", greatest > 1e3 * whole, 200),
-            ("huge and tiny times", !(1e-12..1e12).contains(&greatest), 200),
-            ("-0.0", t.iter().any(|t| t.to_bits() == 1 << 31), 50),
+            ("an inner join at time 0", start < 0.0 && end > 0.0 && (open == 0.0 || close == 0.0), 300),
             ("the least interval", whole == LEAST_INTERVAL * greatest, 200),
             ("a section of the least length", sections.contains(&(LEAST_SECTION * greatest)), 50),
             ("the least exposure", exact.area().hi < (1.0 + exp2(-19)) * LEAST_EXPOSURE * whole, 50),

@@ -33,8 +33,7 @@ const WRONG_VALUES: &[(&str, &str, &str)] = &[
           pub const TOUCHING: [Pulse; 5] = expect!(FLASH.min_gap(0).pulses(1.0));
           pub fn frame() -> Result<TriggerTicks<'static>, ScheduleError> { FLASH.trigger_ticks(16) }", ""),
     ("kHz for MHz", "const TICKS: [u32; 12] = expect!(expect!(SHUTTER.at(Hz(1_000))).ticks());",
-     "the gap before trigger 3 is 0 ticks; the minimum is 1; \
-      use fewer triggers (max_triggers), or a faster timer; is its rate in Hz?"),
+     "the gap before trigger 3 is 0 ticks"),
     ("ms for s",
      "static MS: ShutterCurve = expect!(ShutterCurve::linear(0.0, 2.5, 7.5, 10.0));
       const FLASH_MS: TimedCurve = expect!(MS.at(Hz(250_000_000)));",
@@ -45,18 +44,15 @@ const WRONG_VALUES: &[(&str, &str, &str)] = &[
       const _: () = assert!(FLASH_MS.length() <= 1 << 15, \"for a timer of 16 bits\");",
      "for a timer of 16 bits"),
     ("flashes too close", "const TICKS: [u32; 16] = expect!(FLASH.min_gap(1_000).ticks());",
-     "the gap before trigger 1 is 792 ticks; the minimum is 1000; \
-      use fewer triggers (max_triggers), or a faster timer"),
+     "the gap before trigger 1 is 792 ticks; the minimum is 1000"),
     ("pulses that touch", "const PULSES: [Pulse; 12] = expect!(FLASH.pulses(1.0));",
-     "the gap before pulse 1 is 0 ticks; the minimum is 1; \
-      use fewer pulses, or a smaller duty; with min_gap(0) pulses may touch"),
+     "with min_gap(0) pulses may touch"),
     ("a duty in percent", "const PULSES: [Pulse; 12] = expect!(FLASH.pulses(50.0));",
      "the duty has to be above 0 and at most 1"),
     ("fractions of a ramp, as an easing curve has them",
      "static C: ShutterCurve = expect!(ShutterCurve::shutteropening(
           [0.0, 2.5, 7.5, 10.0], [0.1, 0.0, 0.6, 1.0, 0.85, 1.0, 0.9, 0.0]));",
-     "opening ramp: the time of its second inner point has to lie on the ramp, as a fraction of the whole interval: \
-      0 at open_start, 1 at close_end"),
+     "opening ramp: the time of its second inner point has to lie on the ramp, as a fraction of the whole interval"),
     ("more triggers than are direct", "const _: () = assert!(SHUTTER.direct_triggers() >= 4096);", "assertion failed"),
 ];
 

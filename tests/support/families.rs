@@ -9,27 +9,34 @@ use super::oracle::{Curve, Exact, exp2};
 /// A well-behaved curve, as scenes hold them: openness rising from about 0 to 1 and falling again, over
 /// ramps that are not tiny, in one of the usual units and placements of time.
 pub fn random_typical(seed: u64, index: u64) -> Curve {
-    let mut rng = Rng::new(seed, index);
-    let fraction = rng.between(0.1, 1.0);
-    let split = rng.between(0.15, 0.85);
+    typical(&mut Rng::new(seed, index), exp2(-60))
+}
+
+/// In multiples of a grain.
+fn typical(rng: &mut Rng, grain: f64) -> Curve {
+    let [fraction, split] = [between(rng, grain, 0.1, 1.0), between(rng, grain, 0.15, 0.85)];
     let ramps = [fraction * split, fraction * (1.0 - split)];
     let length = [1.0, 1.0, 1e3, 20.833, 1e-3, 1.0 / 48.0][rng.below(6) as usize];
     let start = [0.0, 0.0, 0.0, -0.5, 0.25][rng.below(5) as usize];
-    let shapes = [gentle(&mut rng), gentle(&mut rng)];
+    let shapes = [gentle(rng, grain), gentle(rng, grain)];
     let opening = placed(shapes[0], false, start * length, length * ramps[0]);
     let closing = placed(shapes[1], true, (start + 1.0) * length, length * ramps[1]);
     accepted(settled(Curve::shutter(opening, closing)))
 }
 
-fn gentle(rng: &mut Rng) -> Shape {
-    let [t1, t2] = [rng.between(0.15, 0.5), rng.between(0.5, 0.85)];
+fn between(rng: &mut Rng, grain: f64, low: f64, high: f64) -> f64 {
+    (rng.between(low, high) / grain).round() * grain
+}
+
+fn gentle(rng: &mut Rng, grain: f64) -> Shape {
+    let [t1, t2] = [between(rng, grain, 0.15, 0.5), between(rng, grain, 0.5, 0.85)];
     match rng.below(5) {
         0 => shape([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0], [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]),
         1 => shape([0.0, t1, t2, 1.0], [0.0, 0.0, 1.0, 1.0]),
-        2 => shape([0.0, t1, t2, 1.0], [0.0, rng.between(0.3, 0.7), 1.0, 1.0]),
-        3 => shape([0.0, t1, t2, 1.0], [0.0, 0.0, rng.between(0.3, 0.7), 1.0]),
+        2 => shape([0.0, t1, t2, 1.0], [0.0, between(rng, grain, 0.3, 0.7), 1.0, 1.0]),
+        3 => shape([0.0, t1, t2, 1.0], [0.0, 0.0, between(rng, grain, 0.3, 0.7), 1.0]),
         _ => {
-            let [a, b] = [rng.between(0.1, 0.5), rng.between(0.5, 0.95)];
+            let [a, b] = [between(rng, grain, 0.1, 0.5), between(rng, grain, 0.5, 0.95)];
             shape([0.0, t1, t2, 1.0], [0.0, a, b, 1.0])
         }
     }
@@ -349,7 +356,8 @@ fn hitting(curve: &Curve, rng: &mut Rng) -> Curve {
 
 /// What people draw: whole milliseconds, plain fractions, the same number twice. A random share of the exposure is
 /// never 5/8, and whole numbers give it at once. With how many of each are tried.
-pub const DESIGNS: [(&str, u64, fn(&mut Rng) -> Curve); 2] = [
+pub const DESIGNS: [(&str, u64, fn(&mut Rng) -> Curve); 3] = [
+    ("typical, in hundredths", 40, |rng| typical(rng, 0.01)),
     // In whole ms, the same in s, or in another unit; some far from time 0, or never dark, in tenths.
     ("whole numbers", 150, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];

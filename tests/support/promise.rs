@@ -75,7 +75,6 @@ impl Figures {
     pub fn ask(&mut self, exact: &Exact, questions: &Questions) {
         self.asked::<8>(exact, questions);
         self.asked::<0>(exact, questions);
-        self.twins(exact, questions);
         self.walk(exact, questions.walk);
     }
 
@@ -240,30 +239,6 @@ impl Figures {
             let at = || format!("{} after {last}", which());
             self.expect("order of ticks", last <= on && on <= off, at, exact);
             last = off;
-        }
-    }
-
-    /// The mirrored curve gives mirrored times, and scaled times give scaled answers.
-    fn twins(&mut self, exact: &Exact, questions: &Questions) {
-        let curve = exact.curve();
-        let ours = shutter::<8>(curve);
-        let mirrored = shutter::<8>(&curve.mirrored());
-        // Where the exact time is a tie, or nearly, only to what is promised of u: what one curve answers is an answer
-        // on the other.
-        for &(u, time) in questions.us.iter().filter(|(u, _)| 1.0 - (1.0 - *u) == *u) {
-            let [t, back] = [ours.inverse_cdf(u), -mirrored.inverse_cdf(1.0 - u)];
-            let at = || format!("u = {u:e}: {t:e} and {back:e}");
-            let is_right = floored(u, exact.judge_for(u, back, time).backward) <= BACKWARD;
-            self.expect("mirrored", t == back || is_right, at, exact);
-        }
-        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
-        let power = if length < 1.0 { 1024.0 } else { 1.0 / 1024.0 };
-        let scaled = shutter::<8>(&curve.scaled(power));
-        for &(u, _) in &questions.us {
-            let [t, other] = [ours.inverse_cdf(u), scaled.inverse_cdf(u)];
-            let at = || format!("u = {u:e}: {t:e} and {other:e}");
-            // Of the least numbers a power of two leaves the normal ones.
-            self.expect("scaled", power * t == other || t.abs() < 1e-30, at, exact);
         }
     }
 

@@ -279,22 +279,13 @@ fn roots(a: f64, b: f64, c: f64) -> Vec<f64> {
     [q / c, a / q].into_iter().filter(|x| x.is_finite()).collect()
 }
 
-/// Where a time lies on a curve.
-#[derive(Clone, Copy)]
-enum Place {
-    Outside,
-    Opening(Spot),
-    Plateau,
-    Closing(Spot),
-}
-
 /// What an answer `t` to a question `u` is off by.
 #[derive(Clone, Copy, Debug)]
 pub struct Errors {
     pub exact: Dd,
     /// In ulp of the exact time.
     pub forward: f64,
-    /// In ulp of u.
+    /// How many ulp `u` must move for the time to round to the answer.
     pub backward: f64,
 }
 
@@ -368,72 +359,42 @@ impl Exact {
 
     /// The fraction of the exposure collected by `t`.
     pub fn cdf(&self, t: impl Into<Dd>) -> Dd {
-        self.masses(t.into())[0] / self.area
+        self.at(t.into())[0] / self.area
     }
 
     /// `1 - cdf`, relatively accurate at the later end.
     pub fn complement_dd(&self, t: Dd) -> Dd {
-        self.masses(t)[1] / self.area
-    }
-
-    /// The mass before and after `t`.
-    fn masses(&self, t: Dd) -> [Dd; 2] {
-        self.masses_at(t, self.place(t))
-    }
-
-    fn masses_at(&self, t: Dd, place: Place) -> [Dd; 2] {
-        let curve = &self.curve;
-        match place {
-            Place::Outside if t <= Dd::from(curve.open_start()) => [Dd::ZERO, self.area],
-            Place::Outside => [self.area, Dd::ZERO],
-            Place::Opening(spot) => {
-                let [before, rest] = self.opening.masses(spot);
-                [before, self.closing.mass + self.plateau + rest]
-            }
-            Place::Plateau => {
-                let before = self.opening.mass + (t - Dd::from(curve.open_end()));
-                [before, self.closing.mass + (Dd::from(curve.close_start()) - t)]
-            }
-            Place::Closing(spot) => {
-                let [begun, after] = self.closing.masses(spot);
-                [self.opening.mass + self.plateau + begun, after]
-            }
-        }
+        self.at(t)[1] / self.area
     }
 
     /// The openness at `t`: 0 outside the interval.
     pub fn openness(&self, t: impl Into<Dd>) -> Dd {
-        self.openness_at(self.place(t.into()))
+        self.at(t.into())[2]
     }
 
-    fn openness_at(&self, place: Place) -> Dd {
-        match place {
-            Place::Outside => Dd::ZERO,
-            Place::Opening(spot) => self.opening.openness(spot),
-            Place::Plateau => Dd::ONE,
-            Place::Closing(spot) => self.closing.openness(spot),
-        }
-    }
-
-    fn place(&self, t: Dd) -> Place {
+    /// The masses before and after `t`, and the openness there.
+    fn at(&self, t: Dd) -> [Dd; 3] {
         let curve = &self.curve;
         let [start, open, close, end] =
             [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()].map(Dd::from);
-        if t < start || t > end {
-            Place::Outside
-        } else if self.opens_at(t) {
-            Place::Opening(self.opening.at_time(t))
-        } else if t <= close && open < close {
-            Place::Plateau
+        // Where two ramps meet, it is on the opening one, if that has a length.
+        let opens = t < open || t == open && open == close && !self.opening.is_empty();
+        if t < start {
+            [Dd::ZERO, self.area, Dd::ZERO]
+        } else if t > end {
+            [self.area, Dd::ZERO, Dd::ZERO]
+        } else if !opens && t <= close && open < close {
+            [self.opening.mass + (t - open), self.closing.mass + (close - t), Dd::ONE]
         } else {
-            Place::Closing(self.closing.at_time(t))
+            let ramp = if opens { &self.opening } else { &self.closing };
+            let spot = ramp.at_time(t);
+            let ([before, after], openness) = (ramp.masses(spot), ramp.openness(spot));
+            if opens {
+                [before, self.closing.mass + self.plateau + after, openness]
+            } else {
+                [self.opening.mass + self.plateau + before, after, openness]
+            }
         }
-    }
-
-    /// Is this time on the opening ramp? Where two ramps meet it is, if that ramp has a length.
-    fn opens_at(&self, t: Dd) -> bool {
-        let [open, close] = [self.curve.open_end(), self.curve.close_start()].map(Dd::from);
-        t < open || (t == open && open == close && !self.opening.is_empty())
     }
 
     pub fn pdf(&self, t: impl Into<Dd>) -> Dd {
@@ -448,8 +409,15 @@ impl Exact {
     /// The same where the exact time is known already, for several answers to one question.
     pub fn judge_for(&self, u: f32, t: f32, exact: Dd) -> Errors {
         let [low, high] = rounding_cell(t).map(Dd::from);
-        let rounds = exact >= low && exact <= high && self.is_inside(t);
-        let backward = if rounds { 0.0 } else { self.backward_ulp(u, t) };
+        let backward = if !self.is_inside(t) {
+            f64::INFINITY
+        } else if exact >= low && exact <= high {
+            0.0
+        } else {
+            let u = Dd::from(clamped(u));
+            let miss = (self.cdf(low) - u).max(u - self.cdf(high)).max(Dd::ZERO);
+            miss.hi / ulp_f32(u.hi)
+        };
         Errors { exact, forward: self.forward_ulp(t, exact), backward }
     }
 
@@ -471,28 +439,13 @@ impl Exact {
         ulp_f32(if start < 0.0 && end > 0.0 { end.max(-start) } else { exact.hi })
     }
 
-    /// How many ulp `u` must move for `t` to be the right answer, once the rounding of the exact time
-    /// to `t` is forgiven. Infinite if `t` lies outside the interval or is NaN.
-    pub fn backward_ulp(&self, u: f32, t: f32) -> f64 {
-        if !self.is_inside(t) {
-            return f64::INFINITY;
-        }
-        let u = clamped(u);
-        let [low, high] = rounding_cell(t).map(Dd::from);
-        let target = Dd::from(u) * self.area;
-        let (least, most) = (self.masses(low)[0], self.masses(high)[0]);
-        let miss = (least - target).max(target - most).max(Dd::ZERO);
-        (miss / self.area).hi / ulp_f32(u as f64)
-    }
-
     /// What the curve takes on around a time, to judge several answers by.
     pub fn near(&self, t: f32) -> Near<'_> {
         let interval = Dd::from(self.curve.close_end()) - Dd::from(self.curve.open_start());
         let reach = ulp_f32(f64::from(t)).max(interval.hi * exp2(-53));
         let values = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|part| {
-            let t = Dd::from(t) + Dd::from(part * reach);
-            let place = self.place(t);
-            [self.masses_at(t, place)[0] / self.area, self.openness_at(place)]
+            let [before, _, openness] = self.at(Dd::from(t) + part * reach);
+            [before / self.area, openness]
         });
         Near { exact: self, t, reach, values }
     }
