@@ -15,7 +15,7 @@ use crate::search::LEAST_ERROR;
 
 /// A search rounds its fraction to the nearest multiple of `2^-GRID`: every `f32` from 2⁻²³ on is one.
 const GRID: u32 = 46;
-/// A search ends where the mass is within `2^-ERROR_SHIFT` of the fraction, plus [`LEAST_ERROR`], of the fraction: so
+/// A search ends where the mass differs from the fraction by at most `2^-ERROR_SHIFT` of it plus [`LEAST_ERROR`]: so
 /// neighbouring fractions keep their order (proofs/search.py).
 const ERROR_SHIFT: u32 = 27;
 
@@ -38,14 +38,17 @@ impl Curve {
         let ([start, _, _, open], [close, _, _, end]) = (opening.times(), closing.times());
         let plateau_time = close as f64 - open as f64;
         let areas = [area(opening), area(closing)];
-        let whole = (areas[0] + areas[1]) + plateau_time;
-        if whole < LEAST_EXPOSURE * (end as f64 - start as f64) {
+        let whole_area = (areas[0] + areas[1]) + plateau_time;
+        if whole_area < LEAST_EXPOSURE * (end as f64 - start as f64) {
             return Err(CurveError::DensityTooSmall);
         }
-        let first = fixed_towards_0(areas[0] / whole, -62);
-        let last = if plateau_time > 0.0 { fixed_towards_0(areas[1] / whole, -62) } else { ONE - first };
-        let (units, per_area) = (Units::new(start, end), 1.0 / whole);
-        let ramps = [Ramp::new(opening, per_area, first, units), Ramp::new(closing, per_area, last, units)];
+        let opening_mass = fixed_towards_0(areas[0] / whole_area, -62);
+        // Without a plateau the ramps meet, so no mass may be left between them.
+        let closing_mass =
+            if plateau_time > 0.0 { fixed_towards_0(areas[1] / whole_area, -62) } else { ONE - opening_mass };
+        let (units, per_area) = (Units::new(start, end), 1.0 / whole_area);
+        let ramps =
+            [Ramp::new(opening, per_area, opening_mass, units), Ramp::new(closing, per_area, closing_mass, units)];
         // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. From
         // u = 1/512 on an ulp of `u` is 2⁻³² or more, and the slope is 2⁴⁰ units or more, by the rules of `domain`: so
         // an ulp takes 2⁸ units. The line is off by a few, and what an `f64` rounds of the areas (proofs/domain.py).

@@ -56,24 +56,20 @@ macro_rules! iterate {
                 self.left.next().map(|i| self.frame.at(i))
             }
 
-            #[inline]
             fn nth(&mut self, n: usize) -> Option<$item> {
                 self.left.nth(n).map(|i| self.frame.at(i))
             }
 
-            #[inline]
             fn size_hint(&self) -> (usize, Option<usize>) {
                 self.left.size_hint()
             }
         }
 
         impl<const OCTAVES: usize> DoubleEndedIterator for $name<'_, OCTAVES> {
-            #[inline]
             fn next_back(&mut self) -> Option<$item> {
                 self.left.next_back().map(|i| self.frame.at(i))
             }
 
-            #[inline]
             fn nth_back(&mut self, n: usize) -> Option<$item> {
                 self.left.nth_back(n).map(|i| self.frame.at(i))
             }
@@ -81,7 +77,6 @@ macro_rules! iterate {
 
         impl<const OCTAVES: usize> ExactSizeIterator for $name<'_, OCTAVES> {
             // `usize::MAX` where there are more: a `usize` may have 16 bits.
-            #[inline]
             fn len(&self) -> usize {
                 self.left.size_hint().0
             }
