@@ -71,8 +71,8 @@ bracket, halved = 2**64 - 1, 0
 while bracket > 1:
     bracket, halved = -(-bracket // 2), halved + 1
 proven(f"after {halved} halvings the bracket's ends are neighbours, and one of these was within the error: a search "
-       f"takes at most {FREE_STEPS - 1 + halved} evaluations; MAX_EVALUATIONS would be {constant('MAX_EVALUATIONS')}",
-       halved == 64 and FREE_STEPS - 1 + halved <= constant("MAX_EVALUATIONS"))
+       f"takes at most {FREE_STEPS - 1 + halved} steps; MAX_STEPS would be {constant('MAX_STEPS')}",
+       halved == 64 and FREE_STEPS - 1 + halved <= constant("MAX_STEPS"))
 
 # --- The grid of fractions, in units of a mass, 2^-62, and the error of one; `cut` is that of time_units, for a = s
 # 2^up in half steps of the grid.

@@ -54,6 +54,7 @@ pub(crate) fn openness(curve: &Curve, t: f32) -> f32 {
 /// The openness at `t` over the area.
 pub(crate) fn pdf(curve: &Curve, t: f32) -> f32 {
     let (significand, up) = per_area(curve);
+    // The openness in 2⁻⁶², times the significand, is in 2⁻⁶². The last product is exact: it is normal, or 0.
     rounded(product(openness_in_fixed(curve, t) << 2, significand), power_of_two(-30)) * power_of_two(up)
 }
 
@@ -74,8 +75,9 @@ pub(crate) fn cdf(curve: &Curve, t: f32) -> f32 {
         None => {
             let way = curve.in_units(t) - curve.in_units(curve.join_time(Start));
             let (significand, up) = per_area(curve);
-            // The mass is way · 2^exponent / area · 2⁶², and `product` divides by 2⁶⁴. A doubling is left for after the
-            // product, so that what is shifted fits: the way is at most the area, which has less than 2⁶² units.
+            // The mass is way · 2^exponent / area · 2⁶², and `product` divides by 2⁶⁴; a doubling is left for after it.
+            // So the shift is 0 or more, as the area has less than 2⁶² units, and what is shifted is at most 2⁶², as
+            // the way is at most the area.
             let mass = product(way << ((up + curve.units.exponent() + 61) & 63), significand) << 1;
             curve.ramp(Start).whole + clamped(mass, curve.plateau_mass())
         }

@@ -15,8 +15,8 @@ use crate::search::LEAST_ERROR;
 
 /// A search rounds its fraction to the nearest multiple of `2^-GRID`: every `f32` from 2⁻²³ on is one.
 const GRID: u32 = 46;
-/// A search ends where the mass differs from the fraction by at most `2^-ERROR_SHIFT` of it plus [`LEAST_ERROR`]: so
-/// neighbouring fractions keep their order (proofs/search.py).
+/// A search ends where mass and fraction differ by at most `fraction / 2^ERROR_SHIFT + LEAST_ERROR`: so neighbouring
+/// fractions keep their order (proofs/search.py).
 const ERROR_SHIFT: u32 = 27;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,8 +50,9 @@ impl Curve {
         let ramps =
             [Ramp::new(opening, per_area, opening_mass, units), Ramp::new(closing, per_area, closing_mass, units)];
         // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure. From
-        // u = 1/512 on an ulp of `u` is 2⁻³² or more, and the slope is 2⁴⁰ units or more, by the rules of `domain`: so
-        // an ulp takes 2⁸ units. The line is off by a few, and what an `f64` rounds of the areas (proofs/domain.py).
+        // u = 1/512 on an ulp of `u` is 2⁻³² or more. A curve with a plateau has 1/20 of its interval (`domain`), so
+        // the slope is 2⁴⁵ / 20 units or more, and an ulp takes 2⁸ units or more. The line is off by a few, and by what
+        // an `f64` rounds of the areas (proofs/domain.py).
         let line_base = units.of(open) - fixed_towards_0(areas[0], units.exponent());
         let line_slope = units.of(close) + fixed_towards_0(areas[1], units.exponent()) - line_base;
         Ok(Self { ramps, per_area, line_base, line_slope, units })
@@ -82,12 +83,16 @@ impl Curve {
         self.units.of(time)
     }
 
-    /// The time by which a fraction `a` has been collected, in units; and the evaluations of a search. The mass at that
-    /// time differs from `a` by at most `a / 2²⁶` plus 2⁻⁴⁶: by the grid, the error, and what a measurement is low by
-    /// (proofs/search.py). Of 0, a negative number or NaN it is the end itself, though no light may fall there.
+    /// The time by which a fraction `a` has been collected, in units; and the steps of a search. Of 0, a negative
+    /// number or NaN it is the end itself, though no light may fall there.
+    ///
+    /// The mass at that time differs from `a` by less than half an ulp, or 2⁻⁴⁶ below 2⁻²³ (proofs/search.py adds up
+    /// the grid, the error, what a measurement is low by, what is cut of coefficients, and what an `f64` rounds of
+    /// them).
     #[inline(always)]
     pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {
         let (side, a) = (fraction.side, fraction.get());
+        // In half steps of the grid, then to the nearest step.
         let mass = if a > 0.0 { ((fixed_down(a, -1 - GRID as i32) + 1) >> 1) << (62 - GRID) } else { 0 };
         let error = (mass >> ERROR_SHIFT) + LEAST_ERROR;
         let after_near = mass - self.ramp(side).whole;
@@ -102,7 +107,7 @@ impl Curve {
         } else {
             (side.other(), after_plateau)
         };
-        // One address, or the search keeps the curve's and an index on the stack.
+        // Through `black_box` the ramp is one address. Else the search keeps the curve's and an index on the stack.
         core::hint::black_box(self.ramp(ramp)).time_of_mass(side, mass, error, self.units)
     }
 

@@ -221,7 +221,7 @@ const fn gap_before(name: &str, i: u32, gap: u32, min_gap: u32) -> Text {
 macro_rules! told {
     ($error:ident) => {
         impl $error {
-            /// Panics with the error's text, in a constant at compile time. [`expect!`](crate::expect) calls it.
+            /// Panics with the error's text: in a constant at compile time. [`expect!`](crate::expect) calls it.
             #[track_caller]
             pub const fn panic(self) -> ! {
                 panic!("{}", self.text().as_str())

@@ -2,13 +2,14 @@
 //!
 //! | word | meaning | counted from | type, unit |
 //! |---|---|---|---|
-//! | *mass* | light, as a share of the exposure | an end of the curve or of a ramp | `i64`, 2⁻⁶² ([`ONE`]: all of it) |
+//! | *mass* | light, as a share of the exposure | an end of the curve or of a ramp | `i64`, 2⁻⁶²: [`ONE`] is all |
 //! | *time* | as the user gave it | time 0 | `i64`, *units*: the greatest has 2⁶¹ to 2⁶² ([`Units`]) |
-//! | *way* | the time since an end | an end of the curve or a ramp | `i64`, *fine units*: the interval has 2⁶¹ to 2⁶² |
+//! | *way* | the time since an end | an end of the curve or of a ramp | `i64`, *fine units*, or units where said |
 //! | *place* | the parameter `p` of a ramp's Bezier | an end of the ramp | `u64`, 2⁻⁶⁴ |
 //! | openness | | | `i64`, 2⁻⁶⁰ |
 //!
-//! A *fraction* is an `f32` ([`fraction`](crate::fraction)): `u` from the curve's start, or `a` from its nearer end.
+//! The interval has 2⁶¹ to 2⁶² fine units. A *fraction* is an `f32` ([`fraction`](crate::fraction)): `u` from the
+//! curve's start, or `a` from its nearer end.
 
 /// The whole exposure.
 pub(crate) const ONE: i64 = 1 << 62;
@@ -20,8 +21,9 @@ pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 /// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`inverse`](crate::inverse)).
 pub(crate) const LINE_FROM: f32 = 1.0 / 512.0;
 
-/// The bits of 2⁻²², the least top of an octave, which holds what is above 2⁻²³. A frame's fractions are at least 2⁻²³
-/// from either end of the curve; 2⁻²³ itself, which only the largest frame has, is searched for.
+/// The bits of 2⁻²², the least top of an octave ([`octave`](crate::octave)), which holds what is above 2⁻²³. A frame's
+/// triggers are at least 2⁻²³ from either end of the curve; 2⁻²³ itself, which only the largest frame has, is
+/// searched for.
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 22) as f32).to_bits();
 /// The bits of tops are multiples of this, an eighth of a power of two.
 pub(crate) const EIGHTH: u32 = 1 << 20;
@@ -46,7 +48,7 @@ pub(crate) const fn clamped(x: i64, most: i64) -> i64 {
     }
 }
 
-/// `a x / 2^(64 - shift)`, rounded down, for a `shift` of up to 31.
+/// `floor(a x / 2^(64 - shift))`, for a `shift` of up to 31 with which that fits.
 #[inline(always)]
 pub(crate) const fn product_up(a: i64, x: u64, shift: u32) -> i64 {
     let (high, low) = (a >> 32, a as u64 & 0xFFFF_FFFF);
@@ -84,8 +86,11 @@ impl Units {
         exponent(self.word) - 32
     }
 
-    /// A time in units, rounded down. That costs a way two fine units at most: if `fine` is 2 or more, the interval is
-    /// below half of the greatest time: so each |time| is above a fourth of that, a whole number of units.
+    /// A time in units, rounded down. A way between two times then errs by two fine units at most:
+    ///
+    /// - If `fine` is 0 or 1, each time is off by less than a unit, which is two fine ones at most.
+    /// - If it is more, the interval is below half of the greatest |time|. So every |time| is above half of that, 2⁶⁰
+    ///   units, and an `f32` of this size is a whole number of units.
     #[inline(always)]
     pub(crate) const fn of(self, time: f32) -> i64 {
         fixed_down(time, self.exponent())
@@ -111,7 +116,7 @@ pub(crate) const fn fixed_down(x: f32, e: i32) -> i64 {
     (if x < 0.0 { -significand } else { significand }) >> if down < 63 { down as u32 & 63 } else { 63 }
 }
 
-/// An `x` from 0 to 1 in 2⁻⁶⁰, rounded down: by halves, each exact, as an FPU converts 32 bits.
+/// An `x` from 0 to 1 in 2⁻⁶⁰, rounded down: by halves, each exact, since an FPU converts only 32 bits at a time.
 #[inline(always)]
 pub(crate) const fn in_2_60(x: f32) -> i64 {
     let two_30 = power_of_two(30);
@@ -147,8 +152,8 @@ pub(crate) const fn floor_bits(x: f64) -> u32 {
     if rounded as f64 > x { bits - 1 } else { bits }
 }
 
-/// `x` in single precision, for a step: within an ulp and a half; or 2⁸ if that is more, as next below 0, where its
-/// words cancel. By words, as an FPU converts those.
+/// `x` in single precision, for a step. It is off by at most an ulp and a half or 2⁸, whichever is more. (Just below 0
+/// the words cancel: -1 gives 0.) By words, since an FPU converts only 32 bits at a time.
 pub(crate) const fn single(x: i64) -> f32 {
     (x >> 32) as i32 as f32 * WORD + x as u32 as f32
 }
@@ -164,7 +169,7 @@ pub(crate) fn upper_word(x: i64) -> Option<i32> {
     has_enough.then_some(high | (x as u32 != 0) as i32)
 }
 
-/// `x` as an `f32`, rounded once, where 2³² of it are `word`, a power of two from 2⁻⁹³ on.
+/// `x` as an `f32`, rounded once, where 2³² of the units of `x` are `word`, a power of two from 2⁻⁹³ on.
 #[inline(always)]
 pub(crate) fn rounded(x: i64, word: f32) -> f32 {
     match upper_word(x) {
@@ -192,7 +197,7 @@ pub(crate) fn rounded_near_0(x: i64, word: f32) -> f32 {
     // Then up until the upper word is full. The lower word moves by 32 - up, which may be 32.
     let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
     let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
-    // Two factors: their product may not be normal. The answer is, or 0.
+    // One factor after the other, as their product could be subnormal. The answer is normal, or 0.
     filled as f32 * f32::from_bits((127 - moved - up) << 23) * word
 }
 

@@ -32,7 +32,7 @@ impl Side {
         Self::end_if(!self.is_end())
     }
 
-    /// The time at the end of a way from a `time` into the curve, both in units.
+    /// A time, moved by a way from this side towards the other, both in units.
     pub(crate) const fn inwards(self, time: i64, way: i64) -> i64 {
         if self.is_end() { time - way } else { time + way }
     }

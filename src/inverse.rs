@@ -2,7 +2,8 @@
 //!
 //! The steps of [`Inverse::inverse_cdf`], with the file of each:
 //!
-//! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`. Go to 10.
+//! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`, with the area `A` under
+//!    the curve. Go to 10.
 //! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else a search begins: `a` becomes a mass, an integer ([`fixed`](crate::fixed)).
@@ -14,8 +15,9 @@
 //! 9. Halley's steps, until what they leave, measured in integers, is within the error.
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` has no earlier time: polynomials and searches err by less than half of the distance between
-//! neighbouring `u` (searches below 2⁻²³: of a step of their grid), and on the line `A u` is rounded down.
+//! A greater `u` has no earlier time. Polynomials and searches err by less than half of the distance between
+//! neighbouring `u`; below 2⁻²³, where a search rounds `u` to a grid, by less than half a step of the grid. On the line
+//! `A u` is rounded down. Next to the line the errors of both are too small to meet (proofs/search.py).
 //!
 //! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
 //! 1, too: there the line begins 1/512 from either end.
@@ -46,14 +48,15 @@ pub(crate) struct Inverse<const OCTAVES: usize> {
 pub(crate) enum Section {
     /// On the plateau's line: the time, in units.
     Line(i64),
-    /// On the ramp at a side; or on the plateau below the line: there `build::range` gives no octaves, and a search
-    /// answers.
+    /// On the ramp at a side; or on the plateau, at a fraction up to [`LINE_FROM`]: there `build::range` gives no
+    /// octaves, and a search answers.
     Ramp(Side),
 }
 
 impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
-        // At most 64: so a fraction of 0 finds no octave, as its index is a top's exponent, 105 or more (`LEAST_TOP`).
+        // At most 64: so a fraction of 0 finds no octave, as its index is the exponent field of a top, 105 or more
+        // (`LEAST_TOP`).
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let curve = tried!(Curve::new(opening, closing));
         let [from_start, from_end] = [curve.join_fractions(Start), curve.join_fractions(End)];
@@ -111,9 +114,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         }
     }
 
-    /// How many evaluations of the mass [`inverse_cdf`](Self::inverse_cdf) takes; none where it does not search.
+    /// How many steps of a search [`inverse_cdf`](Self::inverse_cdf) takes; none where it does not search.
     #[cfg(feature = "_measure")]
-    pub(crate) fn evaluations(&self, u: f32) -> Option<u32> {
+    pub(crate) fn steps(&self, u: f32) -> Option<u32> {
         let (fraction, section) = (Fraction::new(u), self.section(Start, u.to_bits()));
         let is_searched = matches!(section, Section::Ramp(ramp) if self.by_octave(fraction, ramp).is_none());
         is_searched.then(|| self.curve.time_units(fraction).1)
@@ -138,7 +141,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     // proofs/words.py
     #[inline(always)]
     const fn on_line(&self, u: u32) -> i64 {
-        // `fixed::times` with what is known here: the slope is not negative, and there is no lower word.
+        // `fixed::product` with what is known here: the slope is not negative, and there is no lower word.
         let slope = self.curve.line_slope as u64;
         let way = (slope >> 32) * u as u64 + (((slope & 0xFFFF_FFFF) * u as u64) >> 32);
         self.curve.line_base.wrapping_add(way as i64)
@@ -155,7 +158,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         }
     }
 
-    /// The octave of a fraction on a ramp, and its position there. None for 0, outside [0, 1] and for NaN.
+    /// The octave of a fraction on a ramp, and its position there, which may wrap ([`octave`] has a table). None for 0,
+    /// outside [0, 1] and for NaN.
     #[inline(always)]
     pub(crate) const fn look_up(&self, fraction: Fraction, ramp: Side) -> Option<(&Octave, i32)> {
         let Fraction { side, bits } = fraction;
@@ -206,8 +210,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// No fraction from a side that is above this, up to 1/2, needs a search.
     ///
-    /// Tops are multiples of an eighth of a power of two, and so is [`LINE_FROM`]. From one multiple to the next only
-    /// joins can lie, and what is between two joins is on the line: so it is enough to ask the first and the last.
+    /// What answers changes only at a top, at [`LINE_FROM`] and at a join. All but joins are multiples of an eighth of
+    /// a power of two. Between two joins the line answers: so if the first and the last fraction from one multiple to
+    /// the next are direct, all of them are.
     pub(crate) const fn least_direct(&self, side: Side) -> f32 {
         let mut bits = 0.5f32.to_bits();
         loop {

@@ -1,7 +1,7 @@
 //! For firmware that fires a burst of flashes during one camera exposure. You describe a shutter by its openness over
-//! time. The crate splits the light that this shutter would collect into equal shares, and gives for each the timer
-//! tick at which to fire. If the camera's own shutter stays open all the while, equal flashes at these ticks
-//! approximate how the described shutter would render a moving subject.
+//! time. The crate splits the light that this shutter would collect into equal shares, and gives the timer tick in
+//! the middle of each, at which to fire. If the camera's own shutter stays open all the while, equal flashes at these
+//! ticks approximate how the described shutter would render a moving subject.
 //!
 //! ```
 //! use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};
@@ -101,8 +101,8 @@
 #![forbid(unsafe_code)]
 
 // Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` those from a time, and
-// `trigger/ticks.rs` those to a tick. `fixed.rs` says what a mass, a way and a place are, and in which units. Each of
-// these needs only those before it, and `error`, `text`, `rate`:
+// `trigger/ticks.rs` those to a tick. `fixed.rs` says what a mass, a way and a place are, and in which units. In
+// this list each part needs only those before it, and `error`, `text`, `rate`:
 //
 // fixed     masses, times and places as whole numbers
 // fraction  an end of the curve, and a fraction counted from it
@@ -140,7 +140,7 @@ pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
 pub use rate::Hz;
 #[cfg(feature = "_measure")]
-pub use search::MAX_EVALUATIONS;
+pub use search::MAX_STEPS;
 pub use shutter::ShutterCurve;
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
 pub use trigger::pulse::Pulse;

@@ -6,14 +6,14 @@
 
 use crate::fixed::{WORD, power_of_two, product, product_up, single};
 
-/// After so many steps each further one halves a bracket. Few searches take as many.
+/// From this step on each halves a bracket, at first the whole ramp. Few searches take as many.
 const FREE_STEPS: u32 = 16;
 /// After a step of more than this share of the place, single precision tells what is missing.
 const FAR: f32 = 0.1;
 /// The most steps of a search. Each evaluates the polynomial once at most in fixed point.
-pub const MAX_EVALUATIONS: u32 = FREE_STEPS + 63;
+pub const MAX_STEPS: u32 = FREE_STEPS + 63;
 /// Within this error, a search for a mass always ends: between neighbouring places the mass grows by less than 3, and
-/// [`Series::at`] is low by less than 7681, together less than twice as much (proofs/search.py).
+/// [`Series::at`] is low by less than 7681: together less than twice this error (proofs/search.py).
 pub(crate) const LEAST_ERROR: i64 = 1 << 12;
 
 /// A polynomial of the place `p`, which counts as 0 to 1 here: `c[0] p + c[1] p² + ...`.
@@ -38,7 +38,7 @@ impl<const N: usize> Series<'_, N> {
     }
 
     /// The place where the series, which grows from 0, reaches a target, within an error; and, for tests, the
-    /// evaluations.
+    /// steps.
     #[inline(always)]
     pub(crate) const fn solve(&self, target: i64, error: i64) -> (u64, u32) {
         if target <= error {
@@ -49,17 +49,18 @@ impl<const N: usize> Series<'_, N> {
             c[k] = single(self.c[k]);
             k += 1;
         }
-        // `sought` and `missing` are in the coefficients' unit; `target`, `error` and `measured` are not shifted.
+        // What is missing is estimated in single precision, in the coefficients' unit (`sought`, `missing`), or
+        // measured in fixed point, not shifted (`target`, `error`, `measured`).
         let unit = power_of_two(-(self.shift as i32));
         let sought = single(target) * unit;
         let guess = guess(&c, sought);
-        // Not to the other end, where the slope may be 0: any place well before it will do. A later step may lead
-        // there, and the next one back.
+        // Well before the other end, where the slope may be 0. A later step may lead to that end, and the next one
+        // back.
         let mut p = place(if guess < 0.75 { guess } else { 0.75 });
-        let (mut low, mut high, mut evaluations) = (0, u64::MAX, 0);
+        let (mut low, mut high, mut steps) = (0, u64::MAX, 0);
         let (mut missing, mut is_far) = (0.0, true);
         loop {
-            evaluations += 1;
+            steps += 1;
             let x = ((p >> 32) as u32 as f32 + p as u32 as f32 / WORD) / WORD;
             if is_far {
                 missing = sought - value(&c, x);
@@ -70,19 +71,19 @@ impl<const N: usize> Series<'_, N> {
             let room = if step < 0.0 { p } else { u64::MAX - p };
             let length = if length < room { length } else { room / 2 };
             p = if step < 0.0 { p - length } else { p + length };
-            is_far = evaluations < FREE_STEPS && step.abs() > FAR * x;
+            is_far = steps < FREE_STEPS && step.abs() > FAR * x;
             if is_far {
                 continue;
             }
-            if evaluations >= FREE_STEPS {
+            if steps >= FREE_STEPS {
                 p = low + (high - low) / 2;
             }
             let measured = target - self.at(p);
             let off = measured.abs();
-            if off <= error || evaluations >= MAX_EVALUATIONS {
-                return (p, evaluations);
+            if off <= error || steps >= MAX_STEPS {
+                return (p, steps);
             }
-            if evaluations >= FREE_STEPS {
+            if steps >= FREE_STEPS {
                 *(if measured > 0 { &mut low } else { &mut high }) = p;
             }
             missing = single(off) * if measured > 0 { unit } else { -unit };
@@ -127,11 +128,6 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
     if bend > 0.5 { newton / (1.0 + bend) } else { newton * (1.0 - bend * (1.0 - bend)) }
 }
 
-// The first guess: an increasing `Σ c_k x^k` reaches `sought` near the least `(sought / c_k)^(1/k)` of positive `c_k`,
-// which is `c[k - 1]`.
-// An `f32`'s bits, as an integer, are nearly its logarithm: so a root is a quotient of integers, good to a tenth.
-// Where a term outweighs the others, so is the guess, and one step of Halley's makes that a thousandth.
-
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
@@ -143,6 +139,10 @@ const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
 /// The place at which the series with the coefficients `c` reaches about `sought`.
+///
+/// One term alone, `c[k - 1] x^k`, reaches it at `(sought / c[k - 1])^(1/k)`. The least of these is the guess. The bits
+/// of an `f32`, as an integer, are nearly its logarithm: so a k-th root is a division by `k`, good to a tenth. Where
+/// one term outweighs the others, the guess is as good, and one step of Halley's makes it good to a thousandth.
 const fn guess(c: &[f32], sought: f32) -> f32 {
     let log = rough_log(sought);
     let (mut least, mut i) = (i32::MAX, 0);

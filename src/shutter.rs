@@ -286,8 +286,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The number of search steps that [`inverse_cdf`](Self::inverse_cdf) takes for `u`; none if it needs no search.
     #[cfg(feature = "_measure")]
     #[must_use]
-    pub fn evaluations(&self, u: f32) -> Option<u32> {
-        self.inverse.evaluations(u)
+    pub fn steps(&self, u: f32) -> Option<u32> {
+        self.inverse.steps(u)
     }
 }
 

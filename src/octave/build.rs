@@ -72,9 +72,9 @@ const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     }
 }
 
-/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what share of exposure
-/// their polynomials serve, and whether none is missing. What is served before a first missing one counts 1024 times,
-/// so that `direct_triggers` comes first.
+/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what share of the
+/// exposure their polynomials serve, and whether none is missing. What is served before a first missing one counts 1024
+/// times, so that `direct_triggers` comes first.
 #[inline(never)]
 const fn try_top(path: &Path, first: u32, range: [f64; 2], octaves: &mut [Octave]) -> (usize, f32, bool) {
     let (mut index, mut count, mut served, mut is_whole) = (0, 0, 0.0, true);

@@ -98,7 +98,8 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
     let goes_on = curve.join_time(path.ramp) != curve.end_time(path.ramp.other());
     let beyond = if stretch.is_joined && goes_on { open as f32 } else { 0.0 };
 
-    // most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if that is inside, or an end.
+    // most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if that is inside, or at an
+    // end.
     let [_, t1, t2, t3, ..] = singles(&time_lsb, 0.0, 1.0);
     let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
     let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };

@@ -20,7 +20,7 @@
 //! | *lsb* | the unit of the polynomial's coefficients | `abs(factor)` units of time |
 //! | *span* | the part of an octave on one ramp | from one `a` to another ([`span`]) |
 //! | `p` | the parameter of the ramp's Bezier | `f64`, 0 at the end that faces the side, 1 at the other ([`path`]) |
-//! | *stretch* | the part of the Bezier that has all of a span | by `s`, `f64` or `f32`, from -1 at one end to 1 |
+//! | *stretch* | the part of the Bezier that has all of a span | by `s`, -1 at one end, 1 at the other |
 //!
 //! ```text
 //! a             0     0.023   0.047   0.09375   0.125   0.25    0.5

@@ -80,8 +80,11 @@ impl CubicBezier {
 }
 
 /// The time at a `fraction` of the interval from `start` to `end`; or its ramp's end, if that is passed by no more than
-/// rounding explains: half an ulp of the greatest time for the ramp's end, another for both ends of the interval, which
-/// count `1 - fraction` and `fraction`, and three half ulp of 1 for a fraction that was divided in `f32`.
+/// rounding explains. With half an ulp at most 2⁻²⁴ of a number, that is the sum of
+///
+/// - half an ulp of the greatest time, for the ramp's end;
+/// - as much for both ends of the interval, which count `1 - fraction` and `fraction`;
+/// - 3 · 2⁻²⁴ of the interval, for a fraction `(t - start) / (end - start)` that was computed in `f32`.
 const fn snapped(start: f64, end: f64, fraction: f32, from: f32, to: f32) -> f32 {
     let (fraction, from, to) = (fraction as f64, from as f64, to as f64);
     // From the nearer end, so that 0 and 1 are exact.

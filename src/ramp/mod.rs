@@ -19,8 +19,8 @@ const MASS_SHIFT: u32 = 9;
 /// Those of a way are in `2^WAY_SHIFT` fine units, as they are up to six times the interval.
 const WAY_SHIFT: u32 = 3;
 
-/// [`Ramp::place_of_time`] finds a way within an error of `|time| / 2^TIME_SHIFT` plus [`LEAST_WAY_ERROR`] fine units.
-/// `time` is in units, each of one fine unit or more: so the first term is a quarter ulp of the time or less.
+/// [`Ramp::place_of_time`] finds a way within `|time| / 2^TIME_SHIFT + LEAST_WAY_ERROR` fine units. The units of `time`
+/// are counted as if they were fine ones, which are no greater: so the first term is a quarter ulp of the time or less.
 const TIME_SHIFT: u32 = 26;
 /// Within this error, in fine units, a search for a way always ends: 25 would do (proofs/search.py).
 const LEAST_WAY_ERROR: i64 = 32;
@@ -72,17 +72,17 @@ impl Ramp {
         powers(if side.is_end() { [d2, d1, d0] } else { [d0, d1, d2] })
     }
 
-    /// The time, in units, by which a mass has been collected since the end that faces a side, within an error of the
-    /// mass; and the evaluations of the search. The search starts from the end from which less mass is missing.
+    /// The time, in units, by which a mass has been collected since the end that faces a side, where the mass may be
+    /// off by `error`; and the steps of the search. The search starts from the end from which less mass is missing.
     #[inline(always)]
     pub(crate) const fn time_of_mass(&self, side: Side, mass: i64, error: i64, units: Units) -> (i64, u32) {
         let rest = self.whole - mass;
         let (from, target) = if mass <= rest { (side, mass) } else { (side.other(), rest) };
-        let (place, evaluations) = self.mass_since(from).solve(target, error);
+        let (place, steps) = self.mass_since(from).solve(target, error);
         let way = Series { c: &self.way_powers(from), shift: WAY_SHIFT }.at(place);
         let [d0, d1, d2] = self.differences;
         let way = clamped(way, (d0 + d1 + d2) << WAY_SHIFT);
-        (from.inwards(units.of(self.end_time(from)), units.coarsened(way)), evaluations)
+        (from.inwards(units.of(self.end_time(from)), units.coarsened(way)), steps)
     }
 
     /// The end that is nearer in time, by the side that it faces, and the place of a time from there.
@@ -109,6 +109,7 @@ impl Ramp {
         let [f0, f1, f2, f3] = self.openness;
         let [f0, f1, f2, f3] = if side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
         let [f0, f1, f2, f3] = [in_2_60(f0), in_2_60(f1), in_2_60(f2), in_2_60(f3)];
+        // `at` is low, so only 0 can be passed.
         let value = f0 + Series { c: &powers([f1 - f0, f2 - f1, f3 - f2]), shift: 0 }.at(place);
         if value > 0 { value } else { 0 }
     }

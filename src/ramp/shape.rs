@@ -44,7 +44,7 @@ impl Shape {
             mass[k] /= COUNT[k];
             k += 1;
         }
-        // 3/6 = 1/2: a rounding less, and the same bits seen from the other end.
+        // 3/6 = 1/2: a rounding less, and the same size, to the bit, seen from the other end.
         mass[5] = f[3] * t[2] / 2.0;
         mass
     }

@@ -89,8 +89,9 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
 pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>) -> u32 {
     let [first, last] = [inverse.least_direct(Side::Start), inverse.least_direct(Side::End)];
     let least = if first > last { first } else { last };
-    // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed. In 2⁻⁶⁴: 2⁻²⁴ is added, which
-    // is more than `f32` round fractions by. (The sum saturates, so that the compiler sees a divisor that is not 0.)
+    // The first and the last trigger are 1/2n from the ends, so 1/2n > least is enough, by more than an `f32` rounds.
+    // That is n < 1 / 2 (least + 2⁻²⁴), here in 2⁻⁶⁴. (The sum saturates: so the compiler sees a divisor that is not
+    // 0.)
     let most = (1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40);
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
@@ -124,7 +125,7 @@ pub(crate) struct TickScale {
     up: u32,
     /// The rate, moved up until it has 32 bits.
     rate: u32,
-    /// By so many bits `delay · rate / 2³²`, of both moved up, moves down to half ticks.
+    /// The product `delay · rate / 2³²`, of both moved up, is shifted down by this, and is then in half ticks.
     down: u32,
 }
 

@@ -46,8 +46,7 @@ use crate::trigger::ticks::{Frame, MOST_TRIGGERS, TickScale};
 pub struct TimedCurve<'a, const OCTAVES: usize = 8> {
     inverse: &'a Inverse<OCTAVES>,
     scale: TickScale,
-    /// A number of ticks for which a fully open shutter collects no more light than the curve; the greatest but for
-    /// rounding.
+    /// The exposure in ticks, rounded down with a margin: never more than the true one.
     exposure_ticks: u32,
     min_gap: u32,
     min_pulse: u32,
@@ -140,7 +139,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// A number of triggers, up to `wanted`, that keep the gap. If it is below both `wanted` and 2²², one more would
     /// not keep the gap. It is 0 only if `wanted` is 0.
     ///
-    /// On a coarse timer, rounding may make a smaller number fail, or a larger one than the next pass.
+    /// On a coarse timer, a smaller number may fail, and a number above the next may pass.
     ///
     /// Often the exposure alone shows that `wanted` triggers keep the gap, and the call is fast. Otherwise the call
     /// computes frames until it finds the number, at most 23.
@@ -220,7 +219,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// How many ticks of a fully open shutter's exposure each trigger needs, so that the next is surely `least` later.
     ///
     /// Openness is at most 1, so the nth part of `part` ticks takes `part / n` or more. Of `E = exposure_ticks`, at
-    /// most 3 ticks and 2⁻²¹ are lost:
+    /// most 3 ticks and 2⁻²¹, which is `E >> 21`, are lost:
     ///
     /// - by both of its ends 1.04 ticks, and four ulp of a fraction, at most 2⁻²² (accuracy.md);
     /// - by `part` three roundings, 3 · 2⁻²⁴;

@@ -20,7 +20,7 @@ use crate::support::promise::{
 };
 use crate::support::questions::{Frame, Questions, around, hard_us, neighbours};
 use crate::support::times;
-use shutter_curve::MAX_EVALUATIONS;
+use shutter_curve::MAX_STEPS;
 
 const SEED: u64 = 13;
 
@@ -41,7 +41,7 @@ fn the_pages_have_these_numbers() {
         (accuracy, "`cdf`", format!("{VALUE} ulp ")),
         (accuracy, "`openness` and `pdf`", format!("{VALUE} ulp ")),
         (accuracy, "`exposure`", format!("{SCALAR} ulp ")),
-        (accuracy, "steps of a search", format!("at most {MAX_EVALUATIONS} ")),
+        (accuracy, "steps of a search", format!("at most {MAX_STEPS} ")),
         (accuracy, "`cdf` as `t` grows", format!("falls by at most {CDF_STEP_BACK} ulp ")),
         (accuracy, "a tick, typical", format!("{TYPICAL_TICK} tick ")),
         (accuracy, "a tick, every", format!("{TICK} tick ")),
@@ -173,7 +173,7 @@ fn octaves_at_their_limit() {
         };
         // The middle of the ramp's parameter.
         let place = |curve: &Curve| Exact::new(curve).middle().to_f32();
-        let is_direct = |dial: f64| shutter::<8>(&with(dial)).evaluations(place(&with(dial))).is_none();
+        let is_direct = |dial: f64| shutter::<8>(&with(dial)).steps(place(&with(dial))).is_none();
         let (mut low, mut high) = (0.0, 1.0);
         if !is_direct(low) || is_direct(high) {
             continue;

@@ -109,7 +109,7 @@ fn triggers_return_for_any_numbers() {
 fn served<const OCTAVES: usize>(curve: &Curve) -> (usize, u32) {
     let ours = build::<OCTAVES>(curve).expect("a shutter");
     let us = (1..400).map(|i| i as f32 / 400.0);
-    (us.filter(|u| ours.evaluations(*u).is_some()).count(), ours.direct_triggers())
+    (us.filter(|u| ours.steps(*u).is_some()).count(), ours.direct_triggers())
 }
 
 /// More octaves never search more, nor lower `direct_triggers`, however the handles lie: of points in whole hundredths.

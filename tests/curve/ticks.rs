@@ -171,13 +171,13 @@ fn these_need_no_search() {
         for curve in [one.curve, one.curve.mirrored()] {
             let (ours, least) = (shutter::<8>(&curve), if one.name.ends_with("shutter") { 255 } else { 64 });
             assert!(ours.direct_triggers() >= least, "{}: {}", ours.direct_triggers(), one.name);
-            assert!((10..990).all(|i| ours.evaluations(i as f32 / 1000.0).is_none()), "{}", one.name);
+            assert!((10..990).all(|i| ours.steps(i as f32 / 1000.0).is_none()), "{}", one.name);
         }
     }
     // What the tests of searches go by: a search takes a step at least.
     let tent = shutter::<0>(&Curve::shutter(line((0.0, 0.0), (0.4, 1.0)), line((0.4, 1.0), (1.0, 0.0))));
-    assert!([1e-14, 0.01, 0.1, 0.99].iter().all(|u| tent.evaluations(*u) >= Some(1)));
-    assert!([0.0, 1.0, -1.0, 2.0, f32::NAN].iter().all(|u| tent.evaluations(*u) <= Some(0)));
+    assert!([1e-14, 0.01, 0.1, 0.99].iter().all(|u| tent.steps(*u) >= Some(1)));
+    assert!([0.0, 1.0, -1.0, 2.0, f32::NAN].iter().all(|u| tent.steps(*u) <= Some(0)));
 }
 
 /// A schedule has the ticks of its triggers, and says which is the first that comes too soon; so does the iterator.

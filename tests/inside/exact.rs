@@ -13,7 +13,7 @@ use crate::octave::build::{build, range};
 use crate::octave::{Octave, bound, product_high_by_halves, top_at};
 use crate::ramp::bezier::CubicBezier;
 use crate::rate::Hz;
-use crate::search::MAX_EVALUATIONS;
+use crate::search::MAX_STEPS;
 use crate::trigger::ticks::TickScale;
 
 /// Numbers of all lengths, and those next to powers of two.
@@ -129,20 +129,20 @@ fn series_of_masses_and_their_search() {
                 assert!(series.c.iter().map(|c| c.unsigned_abs()).sum::<u64>() < 1 << 62, "{ramp:?}");
                 for _ in 0..60 {
                     let target = (rng.unit() * 0.5 * ramp.whole as f64) as i64;
-                    let (place, evaluations) = series.solve(target, (target >> 27) + (1 << 12));
+                    let (place, steps) = series.solve(target, (target >> 27) + (1 << 12));
                     assert!((target - series.at(place)).abs() <= (target >> 27) + (1 << 12), "{target} {ramp:?}");
-                    most = most.max(evaluations);
-                    all = [all[0] + evaluations, all[1] + 1];
-                    let (place, evaluations) = series.solve(target, 0);
+                    most = most.max(steps);
+                    all = [all[0] + steps, all[1] + 1];
+                    let (place, steps) = series.solve(target, 0);
                     let missing = target - series.at(place);
                     assert!(missing.abs() <= 7683, "{missing} of {target}: {ramp:?}");
-                    bisected += u32::from(evaluations == MAX_EVALUATIONS);
+                    bisected += u32::from(steps == MAX_STEPS);
                 }
             }
         }
     }
     let mean = f64::from(all[0]) / f64::from(all[1]);
-    std::println!("evaluations: {mean}, at most {most}; bisected to the end: {bisected}");
+    std::println!("steps: {mean}, at most {most}; bisected to the end: {bisected}");
     assert!(mean < 2.5 && most <= 12 && bisected > 100);
 }
 

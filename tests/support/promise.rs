@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use shutter_curve::{Hz, MAX_EVALUATIONS, ShutterCurve};
+use shutter_curve::{Hz, MAX_STEPS, ShutterCurve};
 
 use super::curves::{Rng, shutter};
 use super::oracle::{Curve, Dd, Exact, Near, exp2, ulp_f32};
@@ -40,7 +40,7 @@ pub const TYPICAL_TICKS: f64 = (1 << 24) as f64;
 pub const MOST_TRIGGERS: u32 = 1 << 22;
 /// Of the mass, for one u: as many as any search on a shutter is known to take. On a density that is dim at its later
 /// end only the limit holds.
-pub const EVALUATIONS: u32 = 12;
+pub const STEPS: u32 = 12;
 /// Of an octave's polynomial, in ulp of u: what its certificate allows.
 pub const DIRECT: f64 = 0.49;
 
@@ -118,20 +118,20 @@ impl Figures {
         let curve = exact.curve();
         let mut last = curve.open_start();
         for &(u, time) in &questions.us {
-            let (t, evaluations) = (ours.inverse_cdf(u), ours.evaluations(u).unwrap_or(0));
+            let (t, steps) = (ours.inverse_cdf(u), ours.steps(u).unwrap_or(0));
             let errors = exact.judge_for(u, t, time);
-            let at = || format!("u = {u:e}: {t:e}, {OCTAVES} octaves, {evaluations} evaluations, {errors:?}");
+            let at = || format!("u = {u:e}: {t:e}, {OCTAVES} octaves, {steps} steps, {errors:?}");
             if questions.is_typical && time.hi != 0.0 && u >= LEAST_FRACTION {
                 self.forward = [self.forward[0] + errors.forward, self.forward[1] + 1.0];
                 self.hold("forward error", errors.forward, FORWARD, at, exact);
             }
             // A polynomial's is less, so that neighbours cannot change places.
             let (what, most) =
-                if evaluations == 0 { ("direct backward error", DIRECT) } else { ("backward error", BACKWARD) };
+                if steps == 0 { ("direct backward error", DIRECT) } else { ("backward error", BACKWARD) };
             self.hold(what, floored(u, errors.backward), most, at, exact);
             self.expect("step back", t >= last, at, exact);
-            let most = if curve.opening[3].1 < 1.0 { MAX_EVALUATIONS } else { EVALUATIONS };
-            self.hold("evaluations", evaluations.into(), most.into(), at, exact);
+            let most = if curve.opening[3].1 < 1.0 { MAX_STEPS } else { STEPS };
+            self.hold("steps", steps.into(), most.into(), at, exact);
             last = t;
         }
         let ends = [f32::NAN, -1.0, -0.0, 0.0, 1.0, 2.0].map(|u| ours.inverse_cdf(u));
@@ -187,7 +187,7 @@ impl Figures {
                 let u = (i as f32 + 0.5) / n as f32;
                 let at = || format!("{i} of {n}, {most} with {OCTAVES} octaves");
                 self.expect("a direct tick", frame.is_direct(i), at, exact);
-                let is_direct = ours.evaluations(u).is_none();
+                let is_direct = ours.steps(u).is_none();
                 self.expect("a direct time", is_direct, at, exact);
             }
         }

@@ -133,7 +133,7 @@ fn curve<const OCTAVES: usize>(curve: usize) -> ShutterCurve<OCTAVES> {
 /// By how often the mass is evaluated for each, falling.
 fn sort<const OCTAVES: usize>(us: &mut [f32], place: usize) {
     let curve = curve::<OCTAVES>(place);
-    us.sort_by_cached_key(|u| Reverse(curve.evaluations(*u)));
+    us.sort_by_cached_key(|u| Reverse(curve.steps(*u)));
 }
 
 /// Which answers of a series came without a search, as the host tells, whose answers have the same bits; none of other
@@ -142,7 +142,7 @@ fn direct(series: &Series) -> Vec<bool> {
     let curve = curve::<8>(series.curve);
     let frame = curve.at(TICK_HZ).and_then(|timed| timed.min_gap(0).trigger_ticks(MOST_TRIGGERS)).expect("a good rate");
     let direct = series.us.iter().map(|u| match series.of {
-        InverseCdf | Static => curve.evaluations(*u).is_none(),
+        InverseCdf | Static => curve.steps(*u).is_none(),
         Tick => frame.is_direct(trigger(*u)),
         _ => false,
     });
@@ -153,7 +153,7 @@ fn direct(series: &Series) -> Vec<bool> {
 pub fn searched() -> f64 {
     let of = |place| {
         let curve = curve::<8>(place);
-        (0..512).filter(|i| curve.evaluations(uniform(*i)).is_some()).count()
+        (0..512).filter(|i| curve.steps(uniform(*i)).is_some()).count()
     };
     (0..TYPICAL).map(of).sum::<usize>() as f64 / (5.12 * TYPICAL as f64)
 }

@@ -86,7 +86,7 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
         answers(hash, &curve, us.iter().copied().chain((0..512).map(uniform)).chain(ODD));
         for odd in ODD {
             hash.floats([curve.cdf(odd), curve.openness(odd), curve.pdf(odd)]);
-            hash.add([curve.evaluations(odd)]);
+            hash.add([curve.steps(odd)]);
         }
         schedules(hash, &curve);
     }
