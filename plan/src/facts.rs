@@ -1,6 +1,7 @@
 //! A plan's facts, in the words of those who test shutters: the report, JSON, a page and a module's head render these.
 
 use serde::Serialize;
+use serde_json::json;
 use shutter_curve::ShutterCurve;
 use shutter_fit::fact::{Fact, Message};
 use shutter_fit::unit::{Unit, count, plus_minus, short, stops};
@@ -45,7 +46,7 @@ impl Facts {
         facts.extend(delay(plan));
         facts.push(gap(plan));
         facts.extend(pulses(plan).map(|told| Fact::words("pulses", told)));
-        facts.push(Fact::new("set-up", "set_up", plan.scene.flashes.set_up.map(SetUp::name), set_up(plan)));
+        facts.push(Fact::new("set-up", "set_up", json!(plan.scene.flashes.set_up), set_up(plan)));
         let keep = match plan.curve.as_ref().map(|curve| curve.most) {
             None => " as measured".into(),
             Some(1) => "; 1 keeps the gap, 2 do not".into(),

@@ -19,16 +19,6 @@ pub enum SetUp {
     InPath,
 }
 
-impl SetUp {
-    /// As a scene has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Emulated => "emulated",
-            Self::InPath => "in_path",
-        }
-    }
-}
-
 /// How a lamp exposes, which depends on the set-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lamp {

@@ -6,17 +6,26 @@ use std::path::Path;
 use std::process::Command;
 
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 use shutter_curve::ShutterCurve;
 use shutter_plan::emit::{Form, emit, identifier, module, several};
 use shutter_plan::lamp::Lamp;
 use shutter_plan::plan::{Plan, Trigger};
 
-use crate::scenes::{BOX, MEASURED, TIMES};
-use crate::support::{Folder, SCENES, has, keys, number, planned, scenes};
+use crate::scenes::{BOX, LEAF, MEASURED, TIMES, with};
+use crate::support::{Folder, SCENES, has, keys, number, planned, report, scenes};
 
 fn text(form: Form, name: &str, plan: &Plan) -> String {
     emit(form, name, plan, false).unwrap()
+}
+
+fn object(name: &str, plan: &Plan) -> Value {
+    serde_json::from_str(&text(Form::Json, name, plan)).unwrap()
+}
+
+/// A shutter in the light's path.
+fn in_path(changes: &str) -> Plan {
+    planned(LEAF, &format!("timer_hz = 1_000_000; set_up = 'in_path'; {changes}"))
 }
 
 fn curve_of(plan: &Plan) -> &ShutterCurve {
@@ -395,8 +404,7 @@ fn times_without_a_curve_are_told_to_be_so() {
                 bounce,2,,0.0031,2100,600,6347,,,\n";
     assert_eq!(csv, format!("{HEAD}{rows}"));
     // All forms have the same keys.
-    let [json, beside] =
-        [times, curve].map(|plan| serde_json::from_str::<Value>(&text(Form::Json, "bounce", plan)).unwrap());
+    let [json, beside] = [times, curve].map(|plan| object("bounce", plan));
     let first = &json["triggers"][0];
     assert_eq!((number(first, "time_s"), number(first, "from_edge_ticks")), (0.0020004, 5247.0));
     assert_eq!(keys(&json), keys(&beside));
@@ -423,7 +431,7 @@ struct Row {
 fn csv_and_json_are_right(name: &str, plan: &Plan) {
     let csv = text(Form::Csv, name, plan);
     let rows = csv::Reader::from_reader(csv.as_bytes()).into_deserialize().map(Result::unwrap);
-    let json: Value = serde_json::from_str(&text(Form::Json, name, plan)).unwrap();
+    let json: Value = object(name, plan);
     for rows in [rows.collect::<Vec<Row>>(), serde_json::from_value(json["triggers"].clone()).unwrap()] {
         assert_eq!(rows.len(), plan.triggers.len(), "{name}");
         for (i, (row, trigger)) in rows.iter().zip(&plan.triggers).enumerate() {
@@ -507,6 +515,80 @@ fn no_name_breaks_a_form() {
     {
         assert!(c.contains(words), "{c}");
     }
-    let json: Value = serde_json::from_str(&text(Form::Json, name, &plan)).unwrap();
+    let json: Value = object(name, &plan);
     assert_eq!(json["scene"], name);
+}
+
+/// A module says from where its ticks count; what an array says of all holds for the one that is moved as well.
+#[test]
+fn a_module_says_what_its_ticks_count_from() {
+    let delay = "delay = 2; sync_falls = true; ";
+    for form in [Form::Rust, Form::C] {
+        for (keys, told) in [
+            ("lamp_lag = 0.7", " to the start of opening, less the lamp's lag."),
+            ("lamp_lag = 3", "No delay is left: the lamp's lag is longer"),
+            ("delay = -0.2", "None: the shutter opens before the edge"),
+        ] {
+            let moved = in_path(&format!("{delay}{keys}"));
+            has(&text(form, "scene", &moved), &[told, "When to trigger, counted from the end of the delay."], &[]);
+            if keys == "delay = -0.2" {
+                let both = [("plain".into(), in_path(delay)), ("early".into(), moved)];
+                let both = several(form, "both", &both, false).unwrap();
+                assert_eq!(both.matches("counted from the end of the delay").count(), 2, "{both}");
+            }
+        }
+    }
+}
+
+/// What the command line says counts for one run, and is refused where the scene's own would be.
+#[test]
+fn the_command_line_answers_for_one_run() {
+    let folder = Folder::new("line");
+    folder.write("scene.toml", with(LEAF, "delay = 2"));
+    folder.write("pulse.toml", with(LEAF, "delay = 2; pulse = 0.1"));
+    let line = "plan scene.toml --emit json --timer-hz 1MHz";
+    let answers = format!("{line} --set-up in_path --sync-falls true");
+    for (more, keys) in [
+        ("--pulse 100us", "pulse = 0.1"),
+        ("--fully-open --lamp-lag 1ms", "fully_open = true; lamp_lag = 1"),
+        ("--duty 0.5 --min-pulse 10us", "duty = 0.5; min_pulse = 0.01"),
+    ] {
+        let whole = in_path(&format!("delay = 2; sync_falls = true; {keys}"));
+        let run = folder.run(&format!("{answers} {more}")).well();
+        assert_eq!(run.out, text(Form::Json, "scene", &whole));
+        // In every form, a table as well.
+        assert_eq!(run.err.contains("dims the flashes to"), more.contains("--pulse"), "{}", run.err);
+    }
+    folder.refuses(&[
+        (&format!("{answers} --duty 0.5 --fully-open"), "cannot be used with"),
+        // As in the file: no pulse is dropped without a word.
+        ("plan pulse.toml --fully-open --set-up in_path", "fully_open: it is for flashes whose length"),
+        ("plan pulse.toml --duty 0.5", "duty: a scene has `duty` or `pulse`"),
+        (line, "set_up = \"in_path\""),
+        (line, "sync_falls"),
+    ]);
+}
+
+/// What a scene keeps of its fit goes along: the bound of the efficiency, and each doubt. Comments are comments.
+#[test]
+fn what_the_fit_doubted_is_in_every_form() {
+    let measured = "[shutter.measured]\ntrace = \"x.csv\"\nmodel = \"straight ramps\"\nunit = \"ms\"\nexposure = 5.5\n\
+                    exposure_error = 0.1\nefficiency = \"at most 80 %\"\nwarnings = [\"the lamp flickers\"]\n[flashes]";
+    let comments = "# Exposure bracket: 3 frames\n# Warning: do not look into the lamp\n";
+    let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2]\nmin_gap = 0\n";
+    for scene in [LEAF, times] {
+        let commented = comments.to_string()
+            + &with(scene, &format!("set_up = 'emulated'; timer_hz = 1_000_000; [flashes] -> {measured}"));
+        let plan = Plan::parse(&commented).unwrap();
+        for form in [Form::Rust, Form::C] {
+            let module = text(form, "scene", &plan);
+            let measured = "measured     exposure 5.50 ± 0.10 ms, efficiency at most 80 %\n";
+            has(&module, &[measured, "doubt        the lamp flickers\n"], &["bracket", "do not look"]);
+        }
+        let doubts = &object("scene", &plan)["doubts"];
+        assert_eq!(doubts[0], json!({ "code": "trace", "text": "the lamp flickers", "remedy": null }));
+        // Without its checksum, anything may have been changed.
+        assert_eq!(doubts[1]["code"], "edited");
+        has(&report(&plan), &["\ndoubt        the lamp flickers\n"], &["do not look"]);
+    }
 }

@@ -11,7 +11,6 @@ mod shutters;
 mod emit;
 mod fit;
 mod fuzz;
-mod lamp;
 mod outputs;
 mod plan;
 mod scene_keys;
