@@ -1,6 +1,6 @@
 //! The tables of `docs/internals/cost.md`.
 
-use measured::Function::{Cdf, InverseCdf4, Openness, Schedule, Static, Tick};
+use measured::Function::{InverseCdf4, Schedule, Static, Tick};
 use measured::{ALL_RAMP, FUNCTIONS, Function, NAMES, SOFT, TRAPEZOID, TRIGGERS};
 
 use crate::Result;
@@ -31,8 +31,6 @@ typical curves.
 Mean instructions of other cores, *soft* and *all ramp*, of square roots *trapezoid*:
 
 {instructions}
-
-[speed-vs-error.md](speed-vs-error.md) has the other methods and their errors.
 
 ## Building a curve at run time, flash and stack
 
@@ -111,7 +109,7 @@ fn bytes(cores: &[&Measured]) -> String {
         of.builds().then(|| Some(grouped(core.mean(of, SOFT)?[0]))).flatten()
     });
     let bytes = by_core("bytes of code; stack", cores, |core, of| {
-        (of.builds() || matches!(of, Static | Cdf | Openness | Tick | Schedule)).then_some(())?;
+        (of.builds() || matches!(of, Static | Tick | Schedule)).then_some(())?;
         Some(format!("{}; {}", grouped(core.code(of)?.into()), grouped(core.stack(of)?.into())))
     });
     format!("{building}\n\n{bytes}")
