@@ -98,7 +98,11 @@ pub fn time_of_day(field: &str) -> Option<f64> {
         Some((date, clock)) => Some(clock).filter(|_| is_date(date))?,
         None => field,
     };
-    let mut parts = clock[..clock.find(['+', '-', 'Z']).unwrap_or(clock.len())].split(':');
+    let (clock, zone) = clock.split_at(clock.find(['+', '-', 'Z']).unwrap_or(clock.len()));
+    if zone.contains(|c: char| !c.is_ascii_digit() && !"+-:Z".contains(c)) {
+        return None;
+    }
+    let mut parts = clock.split(':');
     let mut whole = |end: u8| parts.next()?.parse().ok().filter(|part: &u8| *part < end);
     let (hours, minutes) = (whole(24)?, whole(60)?);
     let seconds = parts.next().filter(|text| text.starts_with(|c: char| c.is_ascii_digit()))?;

@@ -337,7 +337,8 @@ impl<'a> Table<'a> {
         let of = |row: &Line<'a>| {
             let [clock, next] = [0, 1].map(|k| self.field(row, column + k));
             let end = next.find(|c: char| !c.is_ascii_digit()).unwrap_or(next.len());
-            let is_cut = self.form.delimiter == ',' && end > 2 && !clock.contains('.') && !next[end..].starts_with('.');
+            let has_point = clock.find(':').is_some_and(|at| clock[at..].contains('.'));
+            let is_cut = self.form.delimiter == ',' && end > 2 && !has_point && !next[end..].starts_with('.');
             is_cut.then(|| (end, format!("{clock},{next}")))
         };
         let (digits, first) = of(self.rows().next()?)?;

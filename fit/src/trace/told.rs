@@ -337,7 +337,7 @@ pub trait Tell: Display + Serialize + Sized {
     fn with_option(&self) -> String {
         let Some(remedy) = self.remedy() else { return self.to_string() };
         let value = match remedy {
-            Remedy::Rate => "100000",
+            Remedy::Rate => "HERTZ",
             Remedy::Unit => "us, ms or s",
             Remedy::Columns(columns) => columns,
             Remedy::Light => "up or down",
