@@ -8,7 +8,7 @@ use shutter_fit::{Fit, Kind, Options, Sync, fit};
 use strum::IntoEnumIterator;
 
 use crate::exports::{judge, rows};
-use crate::generator::{Random, asked};
+use crate::generator::{Random, asked, each};
 
 /// A program may ask for them, so they stay.
 #[test]
@@ -78,6 +78,9 @@ fn other_files_of_the_same_trace_are_read() {
         let text = format!("t_us,A\n{}{}{}", dark(-before..0), rows("{us},{v}"), dark(1200..1200 + behind));
         judge(text.as_bytes(), "", "2 in µs").expect("a trace");
     }
+    // Across a gap no sample stands for the light.
+    let soon: String = text.lines().take(1000).chain(["9e9,0.06"]).map(|line| format!("{line}\n")).collect();
+    judge(soon.as_bytes(), "", "2 in µs").expect("a trace");
     // As a simulator chooses its steps, each sample counts for its own time.
     let uneven = text.lines().enumerate().filter(|(i, _)| [0, 1, 2, 3, 5, 8].contains(&(i % 9)));
     judge(uneven.map(|(_, line)| format!("{line}\n")).collect::<String>().as_bytes(), "", "2 ").expect("a trace");
@@ -241,6 +244,41 @@ fn the_stamps_of_blocks_are_doubted() {
     }
 }
 
+/// The rest of a shot before, which hardly shows as a pulse as the record begins, is no part of the next one.
+#[test]
+fn a_record_may_begin_or_end_in_another_shot() {
+    let shots = |t: f64| [0.0, 0.012, 0.024].map(|at| level(t, at, 0.002, 0.005)).iter().sum();
+    for (seed, from, to) in [(1, 0.0059, 0.0235), (2, 0.0075, 0.0251)] {
+        let times = (0..5000).map(|i| 2e-5 * f64::from(i)).filter(|t| (from..to).contains(t));
+        let text = noisy(seed, 0.004, times.map(|t| (format!("{t:.5}"), shots(t))));
+        assert_eq!(fitted(&format!("time_s,light\n{text}"), None, 0.005, 1e-5).2, [""; 0], "{seed}");
+    }
+}
+
+/// Few steps of the values, and less noise than would spread them: a level is off by up to half a step.
+#[test]
+fn coarse_steps_are_in_the_errors() {
+    let mut random = Random::new(12);
+    for k in 0..36 {
+        let steps = [10.0, 20.0, 40.0][k % 3];
+        let (off, noise) = (random.within(0.0, 1.0), random.within(0.02, 0.25));
+        let (ramp, exposure) = (random.within(3e-4, 1e-3), random.within(0.003, 0.007));
+        let mut row = |t: f64| (steps * level(t, 0.005, ramp, exposure) + off + noise * random.normal()).round();
+        let rows: String = (0..1000).map(|i| 2e-5 * f64::from(i)).map(|t| format!("{t:.5},{}\n", row(t))).collect();
+        fitted(&format!("time_s,light\n{rows}"), None, exposure, 1e-3);
+    }
+}
+
+/// Samples are missing behind a tail, so what was left of it is not known.
+#[test]
+fn a_gap_may_cut_a_tail() {
+    let light = |t: f64| if t < 0.013 { level(t, 0.008, 5e-4, 1.0) } else { (-(t - 0.013) / 1.5e-3).exp() };
+    let times = (0..5000).map(|i| 2e-5 * f64::from(i)).filter(|t| !(0.016..0.07).contains(t));
+    let text = noisy(8, 0.003, times.map(|t| (format!("{t:.5}"), light(t))));
+    let (_, _, codes) = fitted(&format!("time_s,light\n{text}"), None, 0.00625, 0.02);
+    assert!(codes.contains(&"cut_tail"), "{codes:?}");
+}
+
 /// Blades scatter by some percent; a setting differs by more.
 #[test]
 fn shots_of_one_setting_scatter() {
@@ -337,9 +375,10 @@ fn no_broken_file_breaks_the_reading() {
     let mut wholes: Vec<Vec<u8>> = wholes.into_iter().map(String::into_bytes).collect();
     wholes.push(wav(1, 16, 2, 0));
     wholes.push(wav(3, 64, 8, 0));
-    let mut random = Random::new(77);
-    for k in 0..asked("BROKEN_FILES", 120) {
-        let mut bytes = wholes[k % wholes.len()].clone();
+    let seed = asked("SEED", 77) << 32;
+    each(asked("BROKEN_FILES", 120), |k| {
+        let mut random = Random::new(seed + u64::from(k));
+        let mut bytes = wholes[(k / 4) as usize % wholes.len()].clone();
         for _ in 0..1 + k % 9 {
             let mut place = || (random.within(0.0, bytes.len() as f64)) as usize;
             let (at, to) = (place(), place());
@@ -354,5 +393,5 @@ fn no_broken_file_breaks_the_reading() {
         if let Ok(recording) = open(&bytes, &trace::Options::default()) {
             let _ = fit(&recording.trace, &Options::default(), &mut |_| ());
         }
-    }
+    });
 }
