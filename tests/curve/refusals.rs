@@ -195,9 +195,12 @@ fn inner_points_at_ends_and_joins_are_accepted() {
         ([-1.3883804, -0.6941902, 4.2855483e-10, 1.8542775e-7], Ok(())),
         ([-1.3883804, -0.6941902, 4.2855483e-10, 1.8542775e-9], Err(E::TooShort(Closing))),
         ([-1e19, -1e19, 1000.0, 1e15], Ok(())),
+        // At 1 also to the bit, which the start and a length do not have.
+        ([-1.0, -0.5, -1e-7, 9.5e-16], Ok(())),
         ([-1e19, -1e19, 1000.0, 1500.0], Err(E::TooShort(Closing))),
     ] {
         assert_eq!(ShutterCurve::shutteropening(times, inner).map(|_| ()), expected, "{times:?}");
+        assert_eq!(CubicBezier::shutteropening(times, inner).1.points()[1].0, times[3]);
     }
 }
 

@@ -70,6 +70,10 @@ fn frames_that_are_refused() {
     assert_eq!(checked(0.5, 30_000, 30_000), None);
     assert_eq!(checked(0.5, length, 0), None);
     assert_eq!(checked(0.5, min_pulse, 0), Some(S::PulseTooShort { pulse, length, min_pulse }));
+    let apart = timed.pulses::<12>(0.5).unwrap();
+    let gap = apart.windows(2).map(|pair| pair[1].on - pair[0].off).min().unwrap();
+    assert_eq!(checked(0.5, 0, gap), None);
+    assert!(matches!(checked(0.5, 0, gap + 1), Some(S::PulsesTooClose { gap: least, .. }) if least == gap));
     let touch = Some(S::PulsesTooClose { pulse: 1, gap: 0, min_gap: 1 });
     assert_eq!((checked(1.0, 0, 0), checked(1.0, 0, 1)), (None, touch));
 }

@@ -140,10 +140,8 @@ fn a_certificate_is_never_below_the_truth() {
 /// another polynomial.
 #[test]
 fn an_offset_beyond_its_word_is_refused() {
-    let thirds = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
-    let opening = std::array::from_fn(|k| (thirds[k], thirds[k]));
-    let closing = std::array::from_fn(|k| (2.0 + thirds[k], 1.0 - thirds[k]));
-    let ramps = [opening, closing].map(CubicBezier::new);
+    let trapezoid = &named("typical")[1].curve;
+    let ramps = [trapezoid.opening, trapezoid.closing].map(CubicBezier::new);
     let integrated = crate::curve::Curve::new(&ramps[0], &ramps[1]).expect("a shutter");
     let mut judged = 0;
     for side in Side::BOTH {

@@ -1,14 +1,13 @@
 //! The integers of the answers, held to 128 bits or to `f64`: each function that a script of `proofs` names.
 
 use crate::fixed::{
-    LINE_FROM, fixed_down, fixed_towards_0, floor_bits, in_2_60, power_of_two, power_of_two_f64, product, product_up,
-    single,
+    fixed_down, fixed_towards_0, floor_bits, in_2_60, power_of_two, power_of_two_f64, product, product_up, single,
 };
 use crate::fraction::{Fraction, Side};
 use crate::inside::support::curves::{Rng, named};
 use crate::inside::support::families::{random_hard, random_typical};
 use crate::inside::support::oracle::{Curve, Dd, Exact, ulp_f32};
-use crate::inverse::{Inverse, Section};
+use crate::inverse::Inverse;
 use crate::octave::build::{build, range};
 use crate::octave::{Octave, bound, product_high_by_halves, top_at};
 use crate::ramp::bezier::CubicBezier;
@@ -275,26 +274,6 @@ fn searches_and_the_cdf_are_within_what_is_proven() {
     }
     std::println!("parts of what is proven: {worst:?}");
     assert!(worst.iter().all(|worst| *worst <= 1.0), "{worst:?}");
-}
-
-/// Next to a join each fraction is on its own part of the curve.
-#[test]
-fn a_fraction_next_to_a_join_is_on_its_own_part() {
-    for (inverse, side) in inverses().flat_map(|inverse| Side::BOTH.map(|side| (inverse, side))) {
-        let joins = inverse.curve.join_fractions(side);
-        let [near, far] = [joins[0].max(f64::from(LINE_FROM)), joins[1]];
-        for bits in joins.into_iter().flat_map(|join| [-2, -1, 0, 1, 2].map(|by| floor_bits(join) as i32 + by)) {
-            let a = f64::from(f32::from_bits(bits as u32));
-            if bits > 0 && a < 1.0 {
-                let found = match inverse.section(side, bits as u32) {
-                    Section::Line(_) => 1,
-                    Section::Ramp(ramp) => 2 * usize::from(ramp != side),
-                };
-                let part = if a > far { 2 } else { usize::from(a > near) };
-                assert_eq!(found, part, "{a:e} of {joins:?}");
-            }
-        }
-    }
 }
 
 /// A tick is the nearest one to the exact product of delay and rate; and a rate is accepted as long as the interval has

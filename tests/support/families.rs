@@ -354,9 +354,12 @@ fn hitting(curve: &Curve, rng: &mut Rng) -> Curve {
     if is_valid(&hit) { hit } else { *curve }
 }
 
+/// A family of designs, how many are tried, and how one is drawn.
+type Design = (&'static str, u64, fn(&mut Rng) -> Curve);
+
 /// What people draw: whole milliseconds, plain fractions, the same number twice. A random share of the exposure is
-/// never 5/8, and whole numbers give it at once. With how many of each are tried.
-pub const DESIGNS: [(&str, u64, fn(&mut Rng) -> Curve); 3] = [
+/// never 5/8, and whole numbers give it at once.
+pub const DESIGNS: [Design; 3] = [
     ("typical, in hundredths", 40, |rng| typical(rng, 0.01)),
     // In whole ms, the same in s, or in another unit; some far from time 0, or never dark, in tenths.
     ("whole numbers", 150, |rng| {
