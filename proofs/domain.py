@@ -1,6 +1,6 @@
 """What the rules of src/domain.rs leave: how fast time passes on a ramp, its least area, and how great numbers are.
 
-Of `domain::check`, `Curve::new`, `Ramp::new` and `Shape::exposure`.
+Of `domain::check`, `Curve::new`, `Ramp::new` and `Shape::mass`.
 """
 
 from box import *

@@ -39,6 +39,7 @@ impl Curve {
         let plateau_time = close as f64 - open as f64;
         let areas = [area(opening), area(closing)];
         let whole_area = (areas[0] + areas[1]) + plateau_time;
+        // Only a density can be so dim: other curves have 1/20 of their interval (`domain`).
         if whole_area < LEAST_EXPOSURE * (end as f64 - start as f64) {
             return Err(CurveError::DensityTooSmall);
         }
@@ -84,7 +85,7 @@ impl Curve {
     }
 
     /// The time by which a fraction `a` has been collected, in units; and the steps of a search. Of 0, a negative
-    /// number or NaN it is the end itself, though no light may fall there.
+    /// number or NaN it is the end itself, even if the curve is dark there.
     ///
     /// The mass at that time differs from `a` by less than half an ulp, or 2⁻⁴⁶ below 2⁻²³ (proofs/search.py adds up
     /// the grid, the error, what a measurement is low by, what is cut of coefficients, and what an `f64` rounds of
@@ -92,7 +93,7 @@ impl Curve {
     #[inline(always)]
     pub(crate) const fn time_units(&self, fraction: Fraction) -> (i64, u32) {
         let (side, a) = (fraction.side, fraction.get());
-        // In half steps of the grid, then to the nearest step.
+        // In half steps of the grid, then to the nearest step; in 2⁻⁶².
         let mass = if a > 0.0 { ((fixed_down(a, -1 - GRID as i32) + 1) >> 1) << (62 - GRID) } else { 0 };
         let error = (mass >> ERROR_SHIFT) + LEAST_ERROR;
         let after_near = mass - self.ramp(side).whole;
@@ -100,6 +101,7 @@ impl Curve {
         let (ramp, mass) = if after_near < 0 {
             (side, mass)
         } else if after_plateau < 0 {
+            // No line begins so near to an end (`LINE_FROM`).
             let [join, until] = [self.in_units(self.join_time(side)), self.in_units(self.join_time(side.other()))];
             // mass / 2⁶² · area, as twice both over 2⁶⁴.
             let way = product(after_near << 1, (self.line_slope as u64) << 1);

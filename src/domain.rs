@@ -3,8 +3,8 @@
 //!
 //! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: on a ramp of length 1,
 //! with the Bezier's parameter `p`, `t'` is at least `3 p²` up to `p = 1/8`, mirrored at the end, and at least 1/22
-//! between. By rules 2 and 3 a ramp of a shutter has at least 1/20 of the exposure that its length would have fully
-//! open (proofs/domain.py).
+//! between. By rules 2 and 3 a ramp that meets another part has at least 1/20 of the exposure that its length would
+//! have fully open (proofs/domain.py).
 
 use crate::error::{CurveError, Part, tried};
 use crate::fixed::DOUBLE_WORD;
@@ -22,6 +22,7 @@ pub(crate) const LEAST_EXPOSURE: f64 = 1.0 / (1 << 20) as f64;
 /// All rules but the one of the exposure, for which the curve has to be integrated.
 #[inline(never)]
 pub(crate) const fn check(opening: &CubicBezier, closing: &CubicBezier) -> Result<(), CurveError> {
+    // Rule 1, and lengths by rules 4 and 5.
     tried!(check_finite(opening, Part::Opening));
     tried!(check_finite(closing, Part::Closing));
     let ([start, _, _, open], [close, _, _, end]) = (opening.times(), closing.times());
@@ -41,9 +42,11 @@ pub(crate) const fn check(opening: &CubicBezier, closing: &CubicBezier) -> Resul
     tried!(check_part(start, open, least, Part::Opening));
     tried!(check_part(open, close, least, Part::Plateau));
     tried!(check_part(close, end, least, Part::Closing));
+    // Rule 2.
     tried!(check_points(opening, Part::Opening));
     tried!(check_points(closing, Part::Closing));
-    // A ramp that is the whole curve does not meet another part, and the openness of one without length does not count.
+    // Rule 3. A ramp that is the whole curve does not meet another part, and the openness of one without length does
+    // not count.
     let ([.., opened], [still_open, ..]) = (opening.opennesses(), closing.opennesses());
     if start < open && open < end && opened < 1.0 {
         return Err(CurveError::NotFullyOpen(Part::Opening));

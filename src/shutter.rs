@@ -1,4 +1,4 @@
-//! A shutter: opening ramp, plateau, closing ramp. All that can be asked of it stands here.
+//! A shutter: opening ramp, plateau, closing ramp. What needs no timer can be asked here; `at` leads to the rest.
 
 use core::fmt;
 
@@ -33,9 +33,9 @@ use crate::trigger::timed::TimedCurve;
 /// # Octaves
 ///
 /// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles; where it begins depends on the ramp.
-/// Above 1/2 the same holds for `1 - u`. The curve stores a polynomial for each of the widest octaves that lie on a
-/// ramp: up to `OCTAVES` of them below 1/2, and as many above. They answer most fractions on ramps, and a search
-/// answers the rest.
+/// Above 1/2 the same holds for `1 - u`. The curve has room for the polynomials of the widest octaves that lie on
+/// ramps: `OCTAVES` below 1/2, and as many above. An octave that is too difficult has none. Polynomials answer most
+/// fractions on ramps, and a search answers the rest.
 ///
 /// With the default of 8, about one fraction in 400 of a typical curve needs a search. With 0, every fraction on a ramp
 /// does. The promised accuracy is always the same. A curve takes 368 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.

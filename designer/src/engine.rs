@@ -3,6 +3,8 @@
 //! A scene comes number by number, by its keys: a reader of JSON, or of JavaScript's objects, and what tells in words
 //! what is wrong, would each make the page's first load half as large again.
 
+use serde::Deserialize;
+use serde::de::value::{Error, StrDeserializer};
 use shutter_curve::{CubicBezier, ShutterCurve};
 use shutter_fit::unit::Unit;
 use shutter_plan::fault::Fault;
@@ -104,9 +106,7 @@ impl Question {
         match key {
             "shutter.unit" => shutter.unit = unit(),
             "flashes.unit" => flashes.unit = unit(),
-            "flashes.set_up" => {
-                flashes.set_up = [SetUp::Emulated, SetUp::InPath].into_iter().find(|it| it.name() == word);
-            }
+            "flashes.set_up" => flashes.set_up = SetUp::deserialize(StrDeserializer::<Error>::new(word)).ok(),
             _ => {}
         }
     }

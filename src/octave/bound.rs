@@ -1,14 +1,14 @@
 //! The greatest error of a polynomial on a stretch, bounded from samples.
 //!
-//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q`
-//! and the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times the openness has degree 8 · 6 + 3 = 51,
-//! and a polynomial of degree `n < N` is nowhere greater than its greatest sample over `cos(n π / 2N)` (Ehlich and
-//! Zeller 1964).
+//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = P(x(s)) - t(s)`, in lsb since the octave's middle,
+//! by its polynomial `P` and the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times the openness has
+//! degree 8 · 6 + 3 = 51, and a polynomial of degree `n < N` is nowhere greater than its greatest sample over `cos(n π
+//! / 2N)` (Ehlich and Zeller 1964).
 
 use crate::fixed::{WORD, fixed_towards_0};
 use crate::octave::Octave;
 
-/// N, and `cos(π / N)`.
+/// N, by which all but one of the points are counted, and `cos(π / N)`.
 const POINTS: usize = 192;
 const COSINE: f64 = 0.9998661379095618;
 /// `1 / cos(51 π / 2N)` for all points, and for every second one, which is as if N were 96.
@@ -33,7 +33,7 @@ const S_ONE: f32 = (1 << 30) as f32;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// A sample's position counts 2⁻²⁰ of a position, its time 2⁻²⁴ of an lsb.
+/// A sample's position counts 2⁻²⁰ of a position's unit, its time 2⁻²⁴ of an lsb.
 pub(crate) const POSITION_BITS: i32 = 20;
 pub(crate) const TIME_BITS: i32 = 24;
 /// What a sample's time loses at most, by three products and four numbers that are cut (`proofs/certificate.py`).

@@ -27,13 +27,14 @@ pub(crate) const fn range(curve: &Curve, side: Side, ramp: Side) -> [f64; 2] {
         return [far, 0.5];
     }
     // The line begins above LINE_FROM. What lies between a join below that and LINE_FROM is on the plateau, but neither
-    // on the line nor on the far ramp: the look-up takes it for the near ramp, which therefore gets no octaves.
+    // on the line nor on the far ramp: `Inverse::section` takes it for the near ramp. There an octave would answer
+    // wrongly, so the ramp gets none.
     let would_take_plateau = near < far && near < LINE_FROM as f64;
     let to = if near < 0.5 { near } else { 0.5 };
     [0.0, if would_take_plateau { 0.0 } else { to }]
 }
 
-/// Builds the octaves of a side: the far ramp's, then the near ramp's. Returns the bits of the ramps' tops at index 0.
+/// Builds the octaves of a side: the far ramp's, then the near ramp's. Returns the tops at index 0, by ramp.
 // Out of line, with a slice: one copy for any number of octaves.
 #[inline(never)]
 pub(crate) const fn build(curve: &Curve, ramps: &[CubicBezier; 2], side: Side, octaves: &mut [Octave]) -> [u32; 2] {
@@ -49,7 +50,7 @@ pub(crate) const fn build(curve: &Curve, ramps: &[CubicBezier; 2], side: Side, o
     tops
 }
 
-/// Builds the octaves on a ramp. Returns the bits of its first top, and how many octaves it has.
+/// Builds the octaves on a ramp. Returns its first top, and how many indices it takes.
 #[inline(never)]
 const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     let range = range(path.curve, path.side, path.ramp);
@@ -72,9 +73,9 @@ const fn on_ramp(path: &Path, octaves: &mut [Octave]) -> (u32, usize) {
     }
 }
 
-/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what share of the
-/// exposure their polynomials serve, and whether none is missing. What is served before a first missing one counts 1024
-/// times, so that `direct_triggers` comes first.
+/// Builds the octaves on a ramp from a first top on. Returns how many indices the ramp takes, what share of exposure
+/// their polynomials serve, and whether none is missing. What is served before a first missing one counts 1024 times:
+/// only that raises `direct_triggers`.
 #[inline(never)]
 const fn try_top(path: &Path, first: u32, range: [f64; 2], octaves: &mut [Octave]) -> (usize, f32, bool) {
     let (mut index, mut count, mut served, mut is_whole) = (0, 0, 0.0, true);
@@ -112,13 +113,13 @@ const fn certified(path: &Path, span: Span) -> Octave {
 #[inline(never)]
 const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
     // Rounded up: no `a` of the ramp is above its top. (An `a` just beyond the range may be looked up here, too, as a
-    // join is rounded differently from either end.)
+    // join is rounded differently from either end: a certificate allows for that by JOIN_OFF.)
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };
     let top = least + eighths * EIGHTH;
-    // One more where the range begins within 16 ulp of an octave's end, which is whole octaves below the top: rounding
-    // might put its first fraction into the octave below.
+    // One more where the range begins within 16 ulp, more than enough, of an octave's end, which is whole octaves below
+    // the top: rounding might put its first fraction into the octave below.
     let to_top = top.wrapping_sub(floor_bits(from));
     let is_near_an_end = to_top.wrapping_add(16) & 0x7F_FFFF < 32;
     if from > 0.0 && is_near_an_end { top + EIGHTH } else { top }

@@ -1,4 +1,5 @@
-//! A candidate for an octave: the polynomial through the exact times at nine nodes, in the integers of the answer.
+//! A candidate for an octave: the polynomial through the exact times at nine nodes, its coefficients rounded to
+//! integers.
 
 use crate::fixed::{exponent, fixed_towards_0, power_of_two_f64};
 use crate::octave::path::{Path, Stretch, root, singles, value};
@@ -13,8 +14,8 @@ pub(crate) const NODES: [f32; DEGREE + 1] =
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
-/// What a time is off by, in units, as the side's end is rounded down. That is also enough for
-/// order next to a neighbour that is searched (proofs/search.py).
+/// What a time is off by, in units, as the side's end is rounded down. A search answers in whole units, too: with this
+/// unit in a certificate, the time by a polynomial and that of a searched neighbour are in order (proofs/search.py).
 const UNITS_OFF: f32 = 1.0;
 
 /// An octave, and how its polynomial is held against the exact time.
@@ -66,12 +67,12 @@ pub(crate) const fn candidate(path: &Path, stretch: &Stretch) -> Option<Candidat
         k -= 1;
     }
     let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * lsb, unit_exponent);
-    // Nearly a time of the ramp. Where it is at most 2⁶², the sum below fits, as `end` is below that.
+    // A time since the side's end, so hardly above 2⁶². Up to that the sum below fits, as |side_end| is less.
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }
-    let end = path.curve.in_units(path.curve.end_time(path.side));
-    octave.middle = path.side.inwards(end, middle);
+    let side_end = path.curve.in_units(path.curve.end_time(path.side));
+    octave.middle = path.side.inwards(side_end, middle);
     octave.factor = if path.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,

@@ -17,7 +17,7 @@ pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
 /// How far off a fraction may be in a look-up, since joins are rounded: by three roundings of an `f64`, two of the area
-/// and one of the quotient. Next to a ramp with nearly all of the exposure that is most.
+/// and one of the quotient. It is most where the other ramp has nearly all of the exposure.
 // proofs/certificate.py
 pub(crate) const JOIN_OFF: f32 = 3.0 / (1u64 << 53) as f32;
 /// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 512 times as great, with 60
@@ -31,7 +31,7 @@ const MOST_OFFSET: f32 = 0.4999;
 /// (`proofs/domain.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// By how much rounding changes the openness at a sample, as a share of its coefficients without signs.
+/// By how much rounding changes the openness at a sample, as a share of the sum of its coefficients without signs.
 // proofs/certificate.py
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 
@@ -76,30 +76,33 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
         return ErrorOverLimit::REFUSED;
     }
 
-    // What rounding adds to an answer's error in time; and to a sample's, whose position is rounded by 1/2 and a trace.
+    // `rounding` is what rounding adds to an answer's error in time, `noise` what it hides of a sample's, whose
+    // position is rounded by 1/2 and at most 13 · 2⁻²⁰ (POSITION_BITS). Both in lsb; a time is off by a share of the
+    // latest.
     let ends = [value(&stretch.time, -1.0), value(&stretch.time, 1.0)];
     let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
     let path_off = slope_bound_lsb * fraction_off / span.width + (ends[1] / lsb) as f32 * TIME_OFF;
-    let rounding = truncation_lsb + SAMPLE_OFF + path_off;
-    let noise = rounding + 0.5002 * slope_bound_lsb * per_position as f32;
+    let rounding = truncation_lsb + path_off;
+    let noise = rounding + SAMPLE_OFF + 0.5002 * slope_bound_lsb * per_position as f32;
 
-    // What an error of one lsb comes to, over the limits: in time, where the least size is that of an end; in exposure
-    // where the shutter is fully open; and at the openness of each `s`.
+    // What an error of one lsb comes to, over the limits. In time: the least size is that of an end.
     let [first, last] = [path.size_of_time(ends[0]), path.size_of_time(ends[1])];
-    let forward = lsb as f32 / if first < last { first } else { last } / FORWARD_ERROR;
+    let size = if first < last { first } else { last };
+    let forward_per_lsb = lsb as f32 / size / FORWARD_ERROR;
+    // In exposure: where the shutter is fully open; and its *weight*, at the openness of each `s`.
     // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
     let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
-    let open = lsb * curve.per_area / (ULP_ERROR * ulp - fraction_off) as f64;
-    let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, open);
+    let open_per_lsb = lsb * curve.per_area / (ULP_ERROR * ulp - fraction_off) as f64;
+    let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, open_per_lsb);
     let most_weight = f3.abs() + f2.abs() + f1.abs() + f0.abs();
     // |f'| <= steepest
     let steepest = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
     // Beyond the join the shutter may be fully open.
     let goes_on = curve.join_time(path.ramp) != curve.end_time(path.ramp.other());
-    let beyond = if stretch.is_joined && goes_on { open as f32 } else { 0.0 };
+    let beyond_per_lsb = if stretch.is_joined && goes_on { open_per_lsb as f32 } else { 0.0 };
 
-    // most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if that is inside, or at an
-    // end.
+    // In lsb for a unit of `s`, most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if
+    // that is inside, or at an end. Less 2⁻²⁰ of all terms, which is more than single precision rounds.
     let [_, t1, t2, t3, ..] = singles(&time_lsb, 0.0, 1.0);
     let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
     let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
@@ -112,21 +115,21 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
             errors(octave, &position, &time, &[f0, f1, f2, f3], [noise, noise * most_weight], all);
         // Rounding counts twice, as an answer has its own beside a sample's.
         let error = time_error + rounding;
-        let rounding = rounding + error * WEIGHT_OFF;
-        // From the exact time to the answer `s` moves by `way` at most. Along a way `d` time grows by `d slowest` at
-        // least. It also grows by `t3 d³ / 4`, as `t'` is a parabola that is nowhere negative, and 3 t3 its highest
-        // coefficient. So along `way` it grows by `error`, or `way` is the whole stretch, 2. There `s` stays on the
-        // stretch: up to its end there are two ulp of exposure ([`Span::half`]), and an accepted bound is below half
-        // of one.
-        let mut way = error / most;
-        while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
-            way *= 2.0;
+        // From the exact time to the answer's, `s` moves by at most `run`: along a run `d` time grows by at least
+        // `d slowest`, and by at least `t3 d³ / 4`, as it grows by `d t'(m) + t3 d³ / 4` about the middle m of the run,
+        // where t' >= 0 (proofs/certificate.py). So it is enough that one of the two is `error`, or that `run` is the
+        // whole stretch, 2. As it doubles, it may be twice too long.
+        let mut run = error / most;
+        while run < 2.0 && run * slowest < error && run * run * run * t3 < 4.0 * error {
+            run *= 2.0;
         }
-        // On the way the openness grows by `way steepest` at most.
-        let on_ramp = exposure_error + rounding * most_weight + error * way * steepest;
-        let beyond = error * beyond;
+        // On the run the openness grows by `run steepest` at most. `s` stays on the stretch wherever the bound is
+        // accepted, which is below half an ulp of exposure: up to its end there are two ([`Span::half`]). Or it leaves
+        // the ramp by the join.
+        let on_ramp = exposure_error + (rounding + error * WEIGHT_OFF) * most_weight + error * run * steepest;
+        let beyond = error * beyond_per_lsb;
         let backward = if beyond > on_ramp { beyond } else { on_ramp };
-        let bounds = ErrorOverLimit { forward: error * forward, backward };
+        let bounds = ErrorOverLimit { forward: error * forward_per_lsb, backward };
         if all || bounds.are_certain() {
             return bounds;
         }

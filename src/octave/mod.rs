@@ -2,8 +2,9 @@
 //! [`span`], [`candidate`], [`certificate`] and [`bound`].
 //!
 //! Let `a` be the fraction from the nearer end of the curve, its side. An octave holds the `a` above half of its *top*,
-//! up to the top. A ramp's first top is at or above its greatest `a`; each further one is half of the one before. So
-//! octaves narrow as fast as the density may fall, and one degree is about as exact, relatively, in each.
+//! up to the top. A ramp's first top is at or above its greatest `a`; each further one is half of the one before. Next
+//! to a dark end the time is about a power of `a`, which looks the same from any `a` to `2 a`: so one degree is about
+//! as exact, relatively, in each octave.
 //!
 //! A side's array has the far ramp's `k` octaves, then the near ramp's. Of each ramp the top *at index 0* is stored: of
 //! the near ramp it is the first top, times `2^k`. So `(bits(top at index 0) - bits(a)) >> 23` is an index for either.
@@ -14,10 +15,12 @@
 //! | word | meaning | type, unit |
 //! |---|---|---|
 //! | *position* | `a`, less the power | `i32`, 2⁻³² of the power; it wraps above 3/2 of the power |
-//! | *center* | a position near the middle | the same: where both wrap, their difference fits |
-//! | *width* | the power, halved `shift` times, for a short span | `f32` |
+//! | *center* | a position near the middle | the same; as their difference fits, wrapping does no harm |
+//! | *shift* | 0, or more for a short span | the lowest 5 bits of a center |
+//! | *width* | the power, halved `shift` times | `f32` |
 //! | *offset*, `x` | position less center | `i32`, 2⁻³² of the width; in `f64` in widths |
 //! | *lsb* | the unit of the polynomial's coefficients | `abs(factor)` units of time |
+//! | time since the side's end | the way from the curve's end at the side | `f64`, in the curve's unit, 0 or more |
 //! | *span* | the part of an octave on one ramp | from one `a` to another ([`span`]) |
 //! | `p` | the parameter of the ramp's Bezier | `f64`, 0 at the end that faces the side, 1 at the other ([`path`]) |
 //! | *stretch* | the part of the Bezier that has all of a span | by `s`, -1 at one end, 1 at the other |

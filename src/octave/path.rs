@@ -56,8 +56,8 @@ impl<'a> Path<'a> {
         Self { curve, side, ramp, openness: shape.openness, time: [t0, t1, t2, t3], fraction }
     }
 
-    /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
-    /// the curve runs across time 0; but at most the interval, however far from time 0 that is.
+    /// What an error in time is relative to, at a time since the side's end: |time|; or, if time 0 lies inside the
+    /// curve, where that would ask for too much, the greater |time| of both ends. It is at most the interval.
     #[inline(never)]
     pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
         let [start, end] = [self.curve.end_time(Side::Start), self.curve.end_time(Side::End)];
@@ -72,8 +72,8 @@ impl<'a> Path<'a> {
         if size < end - start { size } else { end - start }
     }
 
-    /// A `p` with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is near, not the
-    /// nearest: farther out, a certificate is only stricter.
+    /// A `p` with a fraction of at most `u`, or at least `u` if `up`; where none is found 0, or 1 if `up`. It is near,
+    /// not the nearest: farther out, a certificate is only stricter.
     #[inline(never)]
     const fn parameter_at(&self, u: f64, up: bool) -> f64 {
         let single = singles(&self.fraction, u, 1.0);
@@ -97,6 +97,7 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// The stretch of a span: all that is known along the path, by powers of `s`.
     #[inline(never)]
     pub(crate) const fn stretch(&self, span: Span) -> Stretch {
         let Span { middle, half, power, .. } = span;

@@ -3,16 +3,16 @@
 use crate::fixed::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
 use crate::octave::SHIFT_MASK;
 
-/// [`Span::new`] halves `width` while `half <= FILLED * width`. A word of offsets ends at 1/2 width, and holds
+/// [`Span::new`] halves `width` while `half <= FILLED * width`. A word of offsets ends at 1/2 width. It has to hold at
+/// most 0.489 widths: 0.48 or 0.47, and 0.009.
 ///
-/// | at most, in widths | |
+/// | widths | |
 /// |---|---|
 /// | 0.48 | `half` after a halving |
-/// | 0.47 | or without one: a quarter of the top, which is at most 15/8 of the power |
+/// | 0.47 | `half` without one: a quarter of the top, which is at most 15/8 of the power |
 /// | 0.009 | what the center is off by: 2⁸ as `middle` is rounded, 31 for the shift, each shifted by `MOST_SHIFT` |
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
-/// A shift of 17 moves what the center is off by to that 0.009.
 const MOST_SHIFT: u32 = 17;
 
 /// The part of an octave that lies on one ramp, in `a`.
@@ -59,7 +59,7 @@ impl Span {
         fixed_down(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
     }
 
-    /// `(center, per_position)`, both not rounded: the offset, in widths, is `(position - center) per_position`.
+    /// `(center, per_position)`, exact and not wrapped: the offset, in widths, is `(position - center) per_position`.
     pub(crate) const fn offsets(&self) -> (f64, f64) {
         ((self.center() - (1 << 32)) as f64, (self.power / self.width / WORD) as f64)
     }

@@ -3,7 +3,7 @@
 use crate::fraction::Side;
 use crate::ramp::bezier::CubicBezier;
 
-/// A Bezier as it is integrated, by powers of `p`: counted from the end that faces a side.
+/// A Bezier as it is integrated, by powers of `p`: from its earlier end for `Side::Start`, else from the later one.
 pub(crate) struct Shape {
     /// `f(p)`, the constant first.
     pub(crate) openness: [f64; 4],
@@ -27,7 +27,8 @@ impl Shape {
     /// `∫ f t' dp` since the end, from the first power: the mass, not divided by the area.
     #[inline(never)]
     pub(crate) const fn mass(&self) -> [f64; 6] {
-        // (p^k)' = k p^(k-1), and the integral divides by the next exponent.
+        // time[j] is of p^(j + 1), so its derivative has the factor COUNT[j]. mass[i] is of p^(i + 1), and its integral
+        // is divided by COUNT[i].
         const COUNT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
         let Self { openness: f, time: t } = self;
         let (mut mass, mut j) = ([0.0; 6], 0);
@@ -50,7 +51,7 @@ impl Shape {
     }
 }
 
-/// `∫ f dt` over the ramp, with the same bits from either end.
+/// `∫ f dt` over the ramp. It is the mean of both ends' sums, so that a mirrored ramp has the same bits.
 pub(crate) const fn area(bezier: &CubicBezier) -> f64 {
     let [first, last] = [Shape::new(bezier, Side::Start).mass(), Shape::new(bezier, Side::End).mass()];
     let (mut from_first, mut from_last, mut k) = (0.0, 0.0, 0);

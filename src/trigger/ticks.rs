@@ -90,8 +90,8 @@ pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTA
     let [first, last] = [inverse.least_direct(Side::Start), inverse.least_direct(Side::End)];
     let least = if first > last { first } else { last };
     // The first and the last trigger are 1/2n from the ends, so 1/2n > least is enough, by more than an `f32` rounds.
-    // That is n < 1 / 2 (least + 2⁻²⁴), here in 2⁻⁶⁴. (The sum saturates: so the compiler sees a divisor that is not
-    // 0.)
+    // That is n < 1 / 2 (least + 2⁻²⁴), at most 2²³ / 3 for the least top; here in 2⁻⁶⁴. (The sum saturates: so the
+    // compiler sees a divisor that is not 0.)
     let most = (1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40);
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }

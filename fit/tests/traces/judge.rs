@@ -30,7 +30,7 @@ pub struct Row {
     pub exposure: f64,
     /// The share of the triggers whose interval holds the truth, and of the start and a tester's T1 to T3; does the
     /// exposure's, and the efficiency's?
-    triggers_covered: f64,
+    triggers_covered: Option<f64>,
     times_covered: Option<f64>,
     pub covered: bool,
     efficiency_covered: bool,
@@ -58,17 +58,21 @@ impl Row {
     fn of(case: &Case, fit: &Fit) -> Self {
         let exposure = case.exposure();
         let holds = |m: Measured, truth: f64| (m.value - truth).abs() <= INTERVAL * m.error + 1e-9 * case.scale;
-        let (n, mut row) = (fit.triggers.len() as f64, Self::default());
+        let (n, mut row, mut held) = (fit.triggers.len() as f64, Self::default(), 0.0);
         for (i, trigger) in fit.triggers.iter().enumerate() {
             let truth = case.trigger((i as f64 + 0.5) / n);
             let error = (trigger.value - truth).abs() / exposure;
             row.triggers += error * error / n;
             row.greatest = row.greatest.max(error);
-            row.triggers_covered += f64::from(holds(*trigger, truth)) / n;
+            held += f64::from(holds(*trigger, truth)) / n;
         }
+        row.triggers = row.triggers.sqrt();
+        row.triggers_covered = Some(held);
         // Which of several shots was fitted is not known here: their triggers are not judged, and any exposure is as
         // true.
-        row.triggers = if case.other.is_none() { row.triggers.sqrt() } else { 0.0 };
+        if case.other.is_some() {
+            row = Self::default();
+        }
         let off = |truth: &f64| (fit.exposure.value - truth).abs();
         let truth = [exposure].into_iter().chain(case.other).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
         row.exposure = off(&truth) / exposure;
@@ -124,7 +128,7 @@ fn share(rows: &[&Row], of: impl Fn(&Row) -> Option<f64>) -> f64 {
 /// How often the stated errors hold the truth: of triggers, exposure, efficiency, and times where there are some.
 fn coverage(rows: &[&Row]) -> [f64; 4] {
     [
-        share(rows, |row| Some(row.triggers_covered)),
+        share(rows, |row| row.triggers_covered),
         share(rows, |row| Some(f64::from(row.covered))),
         share(rows, |row| Some(f64::from(row.efficiency_covered))),
         share(rows, |row| row.times_covered),
