@@ -8,7 +8,7 @@
 use crate::fixed::{WORD, fixed_towards_0};
 use crate::octave::Octave;
 
-/// N, by which all but one of the points are counted, and `cos(π / N)`.
+/// N, where the points are N + 1, and `cos(π / N)`.
 const POINTS: usize = 192;
 const COSINE: f64 = 0.9998661379095618;
 /// `1 / cos(51 π / 2N)` for all points, and for every second one, which is as if N were 96.
@@ -67,7 +67,8 @@ pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
 }
 
 /// Upper bounds of `|R|`, in lsb, and of `|R|` times a cubic of `s`, the openness over some unit: by all points, or by
-/// every second one. `position` and `time` are in fixed point. Samples of each are off by at most a `noise`.
+/// every second one. A `noise` is what the samples of either may be off by; one of NaN is refused with its bound.
+/// `position` and `time` are in fixed point.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -92,8 +93,7 @@ pub(crate) const fn errors(
         let s = s as f32 / S_ONE;
         let weighted = error * (f0 + s * (f1 + s * (f2 + s * f3))).abs();
         in_time = if error > in_time { error } else { in_time };
-        // A NaN stays, and is refused.
-        in_exposure = if weighted <= in_exposure { in_exposure } else { weighted };
+        in_exposure = if weighted > in_exposure { weighted } else { in_exposure };
         i += if all { 1 } else { 2 };
     }
     let factor = SLACK * if all { FACTOR_OF_ALL } else { FACTOR_OF_HALF };

@@ -11,12 +11,12 @@ use crate::octave::{Octave, top_at};
 use crate::ramp::bezier::CubicBezier;
 
 /// By how many eighths a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
-/// one that leaves least to a search. (The octave at the join is often too much for a polynomial; from a raised top it
-/// has less of the ramp.) Found by trial.
+/// one that serves most before its first missing octave. (The octave at the join is often too much for a polynomial;
+/// from a raised top it has less of the ramp.) Found by trial.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
-/// The top of a ramp without octaves. Of every fraction, and of NaN, the index is 64 or more, though the near ramp's
-/// top is raised by as many octaves as the far ramp has.
+/// The top of a ramp without octaves. Of every fraction, and of NaN, the index is 64 or more, beyond any array, though
+/// the near ramp's top is raised by as many octaves as the far ramp has.
 // proofs/octaves.py
 const NO_OCTAVES: u32 = power_of_two(63).to_bits();
 
@@ -118,8 +118,9 @@ const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };
     let top = least + eighths * EIGHTH;
-    // One more where the range begins within 16 ulp, more than enough, of an octave's end, which is whole octaves below
-    // the top: rounding might put its first fraction into the octave below.
+    // By rounding the range's first fraction might fall into the octave below its last one: there the look-up finds the
+    // other ramp's. So the top is raised by one more if the range begins within 16 ulp, more than enough, of an
+    // octave's end, where bits differ from the top's by a multiple of 2²³.
     let to_top = top.wrapping_sub(floor_bits(from));
     let is_near_an_end = to_top.wrapping_add(16) & 0x7F_FFFF < 32;
     if from > 0.0 && is_near_an_end { top + EIGHTH } else { top }

@@ -10,12 +10,13 @@ pub(crate) const NODES: [f32; DEGREE + 1] =
     [-0.984_807_7, -0.8660254, -0.64278764, -0.34202015, 0.0, 0.34202015, 0.64278764, 0.8660254, 0.984_807_7];
 
 /// What the eight products of `Octave::polynomial`, each rounded down, add to `P(x)`: from -1.992 to 0.664 in the unit
-/// of the coefficients (`proofs/octaves.py`). Half of that range, and its mean, for which the octave's middle makes up.
+/// of the coefficients, for |x| up to `MOST_OFFSET` (`proofs/octaves.py`). Half of that range, and its mean, for which
+/// the octave's middle makes up.
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
-/// What a time is off by, in units, as the side's end is rounded down. A search answers in whole units, too: with this
-/// unit in a certificate, the time by a polynomial and that of a searched neighbour are in order (proofs/search.py).
+/// What a time is off by, in units, as the side's end is rounded down. A search answers in whole units, too, and needs
+/// no unit more: a polynomial's time and that of a searched neighbour are in order (proofs/search.py).
 const UNITS_OFF: f32 = 1.0;
 
 /// An octave, and how its polynomial is held against the exact time.
@@ -23,7 +24,7 @@ pub(crate) struct Candidate {
     pub(crate) octave: Octave,
     /// The time of the octave's middle since the side's end.
     pub(crate) middle_time: f64,
-    /// The unit of the coefficients: `|factor|` units, in the curve's unit of time.
+    /// The unit of the coefficients: `|factor|` units, in the user's unit of time.
     pub(crate) lsb: f64,
     /// A bound of the polynomial's slope, in lsb for a width.
     pub(crate) slope_bound_lsb: f32,

@@ -10,14 +10,15 @@ use crate::octave::bound::{POSITION_BITS, SAMPLE_OFF, TIME_BITS, errors, to_fixe
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, Stretch, scale, singles, value};
 
-/// Below 0.19 ulp of a time; in an interval of 2²⁴ ticks below 0.19 tick (see [`Path::size_of_time`]).
+/// As a share of [`Path::size_of_time`]: below 0.19 ulp of a time; in an interval of 2²⁴ ticks below 0.19 tick.
 pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// An error below 1/2 keeps the times of neighbouring `u` in order, also from one octave to the next: neighbours are at
 /// least an ulp of the lesser one apart.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
 /// How far off a fraction may be in a look-up, since joins are rounded: by three roundings of an `f64`, two of the area
-/// and one of the quotient. It is most where the other ramp has nearly all of the exposure.
+/// and one of the quotient. It is most at a far join, if the far ramp has
+/// nearly all of the exposure.
 // proofs/certificate.py
 pub(crate) const JOIN_OFF: f32 = 3.0 / (1u64 << 53) as f32;
 /// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 512 times as great, with 60
@@ -76,9 +77,9 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
         return ErrorOverLimit::REFUSED;
     }
 
-    // `rounding` is what rounding adds to an answer's error in time, `noise` what it hides of a sample's, whose
-    // position is rounded by 1/2 and at most 13 · 2⁻²⁰ (POSITION_BITS). Both in lsb; a time is off by a share of the
-    // latest.
+    // `rounding` is what rounding adds to an answer's error in time: Horner's rule, the side's end, and what the path
+    // is off by. `noise` is what a sample hides: as much, for its own answer, and SAMPLE_OFF, and its position's
+    // rounding by 1/2 and 13 · 2⁻²⁰, with a margin (proofs/certificate.py). Both in lsb.
     let ends = [value(&stretch.time, -1.0), value(&stretch.time, 1.0)];
     let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
     let path_off = slope_bound_lsb * fraction_off / span.width + (ends[1] / lsb) as f32 * TIME_OFF;
@@ -89,8 +90,8 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
     let [first, last] = [path.size_of_time(ends[0]), path.size_of_time(ends[1])];
     let size = if first < last { first } else { last };
     let forward_per_lsb = lsb as f32 / size / FORWARD_ERROR;
-    // In exposure: where the shutter is fully open; and its *weight*, at the openness of each `s`.
-    // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
+    // In exposure: fully open it is `open_per_lsb`, and at an `s` the openness times that, the *weight*.
+    // No span begins below 2⁻²³, half of the least top, so the limit is above 0 (proofs/certificate.py).
     let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
     let open_per_lsb = lsb * curve.per_area / (ULP_ERROR * ulp - fraction_off) as f64;
     let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, open_per_lsb);
@@ -113,7 +114,6 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
     loop {
         let (time_error, exposure_error) =
             errors(octave, &position, &time, &[f0, f1, f2, f3], [noise, noise * most_weight], all);
-        // Rounding counts twice, as an answer has its own beside a sample's.
         let error = time_error + rounding;
         // From the exact time to the answer's, `s` moves by at most `run`: along a run `d` time grows by at least
         // `d slowest`, and by at least `t3 d³ / 4`, as it grows by `d t'(m) + t3 d³ / 4` about the middle m of the run,
@@ -123,9 +123,9 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
         while run < 2.0 && run * slowest < error && run * run * run * t3 < 4.0 * error {
             run *= 2.0;
         }
-        // On the run the openness grows by `run steepest` at most. `s` stays on the stretch wherever the bound is
-        // accepted, which is below half an ulp of exposure: up to its end there are two ([`Span::half`]). Or it leaves
-        // the ramp by the join.
+        // On the run the openness grows by `run steepest` at most. If the bound is accepted, a run collects less than
+        // half an ulp of exposure, and from any `a` of the span to the stretch's end there are more than two
+        // ([`Span::half`]). So `s` stays on the stretch, or leaves the ramp by its join.
         let on_ramp = exposure_error + (rounding + error * WEIGHT_OFF) * most_weight + error * run * steepest;
         let beyond = error * beyond_per_lsb;
         let backward = if beyond > on_ramp { beyond } else { on_ramp };

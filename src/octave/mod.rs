@@ -14,13 +14,13 @@
 //!
 //! | word | meaning | type, unit |
 //! |---|---|---|
-//! | *position* | `a`, less the power | `i32`, 2⁻³² of the power; it wraps above 3/2 of the power |
+//! | *position* | `a`, less the power | `i32`, 2⁻³² of the power; it wraps from 3/2 of the power on |
 //! | *center* | a position near the middle | the same; as their difference fits, wrapping does no harm |
 //! | *shift* | 0, or more for a short span | the lowest 5 bits of a center |
 //! | *width* | the power, halved `shift` times | `f32` |
 //! | *offset*, `x` | position less center | `i32`, 2⁻³² of the width; in `f64` in widths |
 //! | *lsb* | the unit of the polynomial's coefficients | `abs(factor)` units of time |
-//! | time since the side's end | the way from the curve's end at the side | `f64`, in the curve's unit, 0 or more |
+//! | time since the side's end | the way from the curve's end at the side | `f64`, in the user's unit, 0 or more |
 //! | *span* | the part of an octave on one ramp | from one `a` to another ([`span`]) |
 //! | `p` | the parameter of the ramp's Bezier | `f64`, 0 at the end that faces the side, 1 at the other ([`path`]) |
 //! | *stretch* | the part of the Bezier that has all of a span | by `s`, -1 at one end, 1 at the other |
@@ -58,7 +58,7 @@ pub(crate) struct Octave {
 
 pub(crate) const DEGREE: usize = 8;
 
-/// The bits of a center that are its shift: an offset counts `2^shift` for a position.
+/// The bits of a center that are its shift: a position's unit is `2^shift` of an offset's.
 pub(crate) const SHIFT_MASK: i32 = 31;
 
 /// The bits of the top at an index, from those of the one at index 0; 0 if that is too small.

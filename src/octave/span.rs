@@ -10,13 +10,14 @@ use crate::octave::SHIFT_MASK;
 /// |---|---|
 /// | 0.48 | `half` after a halving |
 /// | 0.47 | `half` without one: a quarter of the top, which is at most 15/8 of the power |
-/// | 0.009 | what the center is off by: 2⁸ as `middle` is rounded, 31 for the shift, each shifted by `MOST_SHIFT` |
+/// | 0.009 | the center is off by 2⁸ positions, as `middle` is rounded, and 31 for the shift: 287 · 2¹⁷ / 2³² |
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_SHIFT: u32 = 17;
 
 /// The part of an octave that lies on one ramp, in `a`.
 pub(crate) struct Span {
+    /// Not rounded, as joins are not; `to` is, and `half` has room for that.
     pub(crate) from: f64,
     pub(crate) to: f32,
     pub(crate) middle: f32,
