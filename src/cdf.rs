@@ -73,11 +73,11 @@ pub(crate) fn cdf(curve: &Curve, t: f32) -> f32 {
             if side.is_end() { ONE - ramp.whole + mass } else { mass }
         }
         None => {
+            // In units. The mass is way · 2^exponent / area · 2⁶², and `product` divides by 2⁶⁴; a doubling is left for
+            // after it. The area has less than 2⁶² units, so up + exponent > -62, and the shift is 0 or more. The
+            // way is at most the area, so what is shifted is at most 2⁶².
             let way = curve.in_units(t) - curve.in_units(curve.join_time(Start));
             let (significand, up) = per_area(curve);
-            // The mass is way · 2^exponent / area · 2⁶², and `product` divides by 2⁶⁴; a doubling is left for after it.
-            // So the shift is 0 or more, as the area has less than 2⁶² units, and what is shifted is at most 2⁶², as
-            // the way is at most the area.
             let mass = product(way << ((up + curve.units.exponent() + 61) & 63), significand) << 1;
             curve.ramp(Start).whole + clamped(mass, curve.plateau_mass())
         }
@@ -85,7 +85,7 @@ pub(crate) fn cdf(curve: &Curve, t: f32) -> f32 {
     rounded(mass, power_of_two(-30))
 }
 
-/// `(significand, up)`: one over the area is `significand / 2⁶⁴ · 2^up`.
+/// `(significand, up)`: one over the area is `significand / 2⁶⁴ · 2^up`, from `2^(up - 1)` to `2^up`.
 fn per_area(curve: &Curve) -> (u64, i32) {
     let bits = curve.per_area.to_bits();
     (bits << 11 | 1 << 63, (bits >> 52) as i32 - 1022)

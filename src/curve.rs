@@ -101,7 +101,7 @@ impl Curve {
         let (ramp, mass) = if after_near < 0 {
             (side, mass)
         } else if after_plateau < 0 {
-            // No line begins so near to an end (`LINE_FROM`).
+            // Only up to `LINE_FROM`, where the line would be too coarse: from the join, in units.
             let [join, until] = [self.in_units(self.join_time(side)), self.in_units(self.join_time(side.other()))];
             // mass / 2⁶² · area, as twice both over 2⁶⁴.
             let way = product(after_near << 1, (self.line_slope as u64) << 1);

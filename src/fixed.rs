@@ -3,7 +3,7 @@
 //! | word | meaning | counted from | type, unit |
 //! |---|---|---|---|
 //! | *mass* | light, as a share of the exposure | an end of the curve or of a ramp | `i64`, 2⁻⁶²: [`ONE`] is all |
-//! | *time* | as the user gave it | time 0 | `i64`, *units*: the greatest has 2⁶¹ to 2⁶² ([`Units`]) |
+//! | *time* | as the user gave it | time 0 | `i64`, *units*: all are below 2⁶² ([`Units`]) |
 //! | *way* | the time since an end | an end of the curve or of a ramp | `i64`, *fine units*, or units where said |
 //! | *place* | the parameter `p` of a ramp's Bezier | an end of the ramp | `u64`, 2⁻⁶⁴ |
 //! | openness | | | `i64`, 2⁻⁶⁰ |
@@ -81,16 +81,15 @@ impl Units {
         Self { word: power_of_two(unit + 32), fine: (unit - unit_exponent(end - start)) as u32 }
     }
 
-    /// A unit is the time `2^exponent`.
+    /// A unit is the time `2^exponent`: -125 or more, as an interval is 2⁻⁶⁴ or more (`domain`). So `word` is 2⁻⁹³ or
+    /// more.
     pub(crate) const fn exponent(self) -> i32 {
         exponent(self.word) - 32
     }
 
-    /// A time in units, rounded down. A way between two times then errs by two fine units at most:
-    ///
-    /// - If `fine` is 0 or 1, each time is off by less than a unit, which is two fine ones at most.
-    /// - If it is more, the interval is below half of the greatest |time|. So every |time| is above half of that, 2⁶⁰
-    ///   units, and an `f32` of this size is a whole number of units.
+    /// A time in units, rounded down. So the difference of two is off by less than a unit, and a way by two fine units
+    /// at most: if a unit has more, the interval is below half of the greatest |time|. Then every |time| is above half
+    /// of that, 2⁶⁰ units, and an `f32` of this size is a whole number of units.
     #[inline(always)]
     pub(crate) const fn of(self, time: f32) -> i64 {
         fixed_down(time, self.exponent())
@@ -107,7 +106,7 @@ impl Units {
     }
 }
 
-/// `x / 2^e`, which has to be below 2⁶³, rounded down; `e` is at least -125, so a subnormal `x` is less than one.
+/// `x / 2^e`, which has to be below 2⁶³, rounded down, for an `e` of -125 or more: a subnormal `x` is less than one.
 // proofs/words.py: fixed_down
 pub(crate) const fn fixed_down(x: f32, e: i32) -> i64 {
     let significand = ((x.to_bits() & 0x7F_FFFF | 1 << 23) as i64) << 39;

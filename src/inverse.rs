@@ -2,8 +2,7 @@
 //!
 //! The steps of [`Inverse::inverse_cdf`], with the file of each:
 //!
-//! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`, with the area `A` under
-//!    the curve. Go to 10.
+//! 1. On the plateau, above `u = 1/512`, the time is on a line, `base + area · u`. Go to 10.
 //! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else a search begins: `a` becomes a mass, an integer ([`fixed`](crate::fixed)).
@@ -15,12 +14,12 @@
 //! 9. Halley's steps, until what they leave, measured in integers, is within the error.
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` has no earlier time. Polynomials and searches err by less than half of the distance between
-//! neighbouring `u`; below 2⁻²³, where a search rounds `u` to a grid, by less than half a step of the grid. On the line
-//! `A u` is rounded down. Next to the line the errors of both are too small to meet (proofs/search.py).
+//! A greater `u` has no earlier time. At the time of a polynomial or a search, the true fraction is off from `u` by
+//! less than half the distance to the next `u`; below 2⁻²³, by less than half a step of a search's grid. On the line
+//! the product is rounded down. Beside the line the errors of both are too small to meet (proofs/search.py).
 //!
-//! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
-//! 1, too: there the line begins 1/512 from either end.
+//! A tick's time, [`Inverse::time_units`], is not rounded to `f32`. In its step 1, too, a fraction is counted from the
+//! nearer end: its line begins 1/512 from either end, that of `inverse_cdf` only from the start.
 
 use crate::curve::Curve;
 use crate::error::{CurveError, tried};
@@ -55,8 +54,8 @@ pub(crate) enum Section {
 
 impl<const OCTAVES: usize> Inverse<OCTAVES> {
     pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
-        // At most 64: so a fraction of 0 finds no octave, as its index is the exponent field of a top, 105 or more
-        // (`LEAST_TOP`).
+        // A ramp without octaves gives every fraction an index of 64 or more (`NO_OCTAVES`), and a fraction of 0 has
+        // 105 or more, the exponent field of a top (`LEAST_TOP`).
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let curve = tried!(Curve::new(opening, closing));
         let [from_start, from_end] = [curve.join_fractions(Start), curve.join_fractions(End)];
@@ -210,9 +209,10 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// No fraction from a side that is above this, up to 1/2, needs a search.
     ///
-    /// What answers changes only at a top, at [`LINE_FROM`] and at a join. All but joins are multiples of an eighth of
-    /// a power of two. Between two joins the line answers: so if the first and the last fraction from one multiple to
-    /// the next are direct, all of them are.
+    /// What answers changes only at a top, at [`LINE_FROM`] and at a join, and all but joins are multiples of an eighth
+    /// of a power of two. From one multiple to the next there are at most an octave of the near ramp, the line, and an
+    /// octave of the far ramp, in this order. The first and the last fraction ask both octaves, and the line always
+    /// answers.
     pub(crate) const fn least_direct(&self, side: Side) -> f32 {
         let mut bits = 0.5f32.to_bits();
         loop {

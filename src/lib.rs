@@ -22,6 +22,7 @@
 //! - *Openness* is the part of the light that a shutter lets through at a moment, from 0 to 1.
 //! - A *curve* is openness over time: an opening *ramp*, a fully open *plateau* and a closing ramp. Each ramp is a
 //!   cubic Bezier.
+//! - The *interval* is the time from `open_start` to `close_end`.
 //! - The *exposure* is the area under the curve. `u` is a fraction of it, from 0 to 1.
 //! - A *trigger* is the time at which a flash fires. A *pulse* is the time for which a steady lamp is on.
 //! - A *frame* is all triggers, or all pulses, of one exposure.
@@ -101,8 +102,8 @@
 #![forbid(unsafe_code)]
 
 // Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` those from a time, and
-// `trigger/ticks.rs` those to a tick. `fixed.rs` says what a mass, a way and a place are, and in which units. In
-// this list each part needs only those before it, and `error`, `text`, `rate`:
+// `trigger/ticks.rs` those to a tick. `fixed.rs` says what a mass, a way and a place are, and in which units. In this
+// list each part needs only those before it, and `error`, `text`, `rate`:
 //
 // fixed     masses, times and places as whole numbers
 // fraction  an end of the curve, and a fraction counted from it
@@ -150,7 +151,7 @@ pub use trigger::timed::TimedCurve;
 #[cfg(doc)]
 pub mod accuracy {}
 
-// Tests of what is not public; not in the published package, whose tests have no `_measure`.
+// Tests of what is not public. The published package lacks them, and `_measure`, which is for tests and benches.
 #[cfg(all(test, feature = "_measure"))]
 extern crate self as shutter_curve;
 #[cfg(all(test, feature = "_measure"))]

@@ -54,8 +54,7 @@ impl<const N: usize> Series<'_, N> {
         let unit = power_of_two(-(self.shift as i32));
         let sought = single(target) * unit;
         let guess = guess(&c, sought);
-        // Well before the other end, where the slope may be 0. A later step may lead to that end, and the next one
-        // back.
+        // Well before the other end, where the slope may be 0 and a first step would be wasted.
         let mut p = place(if guess < 0.75 { guess } else { 0.75 });
         let (mut low, mut high, mut steps) = (0, u64::MAX, 0);
         let (mut missing, mut is_far) = (0.0, true);
@@ -111,8 +110,8 @@ const fn value<const N: usize>(c: &[f32; N], x: f32) -> f32 {
 
 /// Halley's step from `x` for what is missing there of `Σ c[k - 1] x^k`: `newton / (1 + bend)`, with Newton's step and
 /// `bend = newton d2 / 2 d1`, by both derivatives. Up to a `bend` of 1/2 it is `newton (1 - bend + bend²)`, since a
-/// division is slow. Beyond, that would grow again, and a search might swing. The place stays inside by what
-/// [`Series::solve`] makes of a step that leads out.
+/// division is slow; where it is negative, that falls short. Beyond, it would grow again, and a search might swing. The
+/// place stays inside by what [`Series::solve`] makes of a step that leads out.
 #[inline(always)]
 const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
     let (mut d1, mut d2, mut k) = (c[N - 1] * N as f32, 0.0, N - 1);
@@ -131,8 +130,7 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// [`from_log`] is too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as
-/// often too small as too great.
+/// [`from_log`] is too great by up to 0.086 in the logarithm. A root is lowered by the middle of that.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.

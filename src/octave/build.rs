@@ -118,9 +118,9 @@ const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };
     let top = least + eighths * EIGHTH;
-    // By rounding the range's first fraction might fall into the octave below its last one: there the look-up finds the
-    // other ramp's. So the top is raised by one more if the range begins within 16 ulp, more than enough, of an
-    // octave's end, where bits differ from the top's by a multiple of 2²³.
+    // By rounding, the range's first fraction might fall below its last octave, where look-ups find the other ramp's.
+    // So one more is added if the range begins within 16 ulp of an octave's end: there bits differ from the top's
+    // by a multiple of 2²³.
     let to_top = top.wrapping_sub(floor_bits(from));
     let is_near_an_end = to_top.wrapping_add(16) & 0x7F_FFFF < 32;
     if from > 0.0 && is_near_an_end { top + EIGHTH } else { top }

@@ -13,14 +13,13 @@ use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
 use crate::search::Series;
 
-/// The coefficients of a mass are in units of `2^MASS_SHIFT`, as they are up to 2⁹ times the exposure
-/// (proofs/domain.py).
+/// Coefficients of a mass are in units of `2^MASS_SHIFT`: they are up to 2⁹ times the exposure (proofs/domain.py).
 const MASS_SHIFT: u32 = 9;
 /// Those of a way are in `2^WAY_SHIFT` fine units, as they are up to six times the interval.
 const WAY_SHIFT: u32 = 3;
 
-/// [`Ramp::place_of_time`] finds a way within `|time| / 2^TIME_SHIFT + LEAST_WAY_ERROR` fine units. The units of `time`
-/// are counted as if they were fine ones, which are no greater: so the first term is a quarter ulp of the time or less.
+/// [`Ramp::place_of_time`] finds a way within `|time| / 2^TIME_SHIFT + LEAST_WAY_ERROR` fine units, with the time in
+/// units: the first term is a quarter ulp of the time at most, and `2^fine` times less if units are coarser.
 const TIME_SHIFT: u32 = 26;
 /// Within this error, in fine units, a search for a way always ends: 25 would do (proofs/search.py).
 const LEAST_WAY_ERROR: i64 = 32;

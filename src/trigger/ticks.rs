@@ -89,11 +89,10 @@ impl<'a, const OCTAVES: usize> Frame<'a, OCTAVES> {
 pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>) -> u32 {
     let [first, last] = [inverse.least_direct(Side::Start), inverse.least_direct(Side::End)];
     let least = if first > last { first } else { last };
-    // The first and the last trigger are 1/2n from the ends, so 1/2n > least is enough, by more than an `f32` rounds.
-    // That is n < 1 / 2 (least + 2⁻²⁴), at most 2²³ / 3 for the least top; here in 2⁻⁶⁴. (The sum saturates: so the
-    // compiler sees a divisor that is not 0.)
-    let most = (1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40);
-    if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
+    // The first and the last trigger are 1 / 2n from the ends, so 1 / 2n > least is enough. With a margin of 2⁻²⁴, more
+    // than an `f32` rounds, n = 1 / (2 (least + 2⁻²⁴)), here in 2⁻⁶⁴. As `least` is 2⁻²³ or more, half of the least
+    // top, that is at most 2²³ / 3. (The sum saturates: so the compiler sees a divisor that is not 0.)
+    ((1 << 63) / ((least as f64 * DOUBLE_WORD) as u64).saturating_add(1 << 40)) as u32
 }
 
 /// The least `e` for which the time `length_units · 2^exponent` is at most 2^e ticks.
