@@ -12,7 +12,7 @@ use crate::ramp::bezier::CubicBezier;
 
 /// By how much the first inner time may pass the second, as a share of the ramp.
 pub(crate) const MOST_CROSSED: f64 = 15.0 / 16.0;
-/// The least interval, as a share of the greatest |time|: 128 `f32` and more.
+/// The least interval, as a share of the greatest |time|: 2⁷ ulp of that and more.
 pub(crate) const LEAST_INTERVAL: f64 = 1.0 / (1 << 16) as f64;
 /// The least length of a ramp or a plateau, as a share of the greatest |time|: half an ulp of that to an ulp.
 pub(crate) const LEAST_PART: f64 = 1.0 / (1 << 24) as f64;

@@ -88,8 +88,8 @@ impl Units {
     }
 
     /// A time in units, rounded down. So the difference of two is off by less than a unit, and a way by two fine units
-    /// at most: if a unit has more, the interval is below half of the greatest |time|. Then every |time| is above half
-    /// of that, 2⁶⁰ units, and an `f32` of this size is a whole number of units.
+    /// at most. For if a unit has four or more, the interval is below half of the greatest |time|: every |time| is
+    /// above half of that one, 2⁶⁰ units. An `f32` of this size is a whole number of units, and a way is exact.
     #[inline(always)]
     pub(crate) const fn of(self, time: f32) -> i64 {
         fixed_down(time, self.exponent())

@@ -6,17 +6,17 @@
 //! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else a search begins: `a` becomes a mass, an integer ([`fixed`](crate::fixed)).
-//! 5. The part of the curve where this mass is reached ([`curve`](crate::curve)): the plateau, below 1/512, gives the
-//!    time at once. Go to 10.
+//! 5. The part of the curve that reaches this mass ([`curve`](crate::curve)). The plateau gives the time: go to 10.
 //! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
 //! 7. The search starts from the end of the ramp from which less mass is missing.
 //! 8. The first guess: the least distance at which one term of the mass is enough ([`search`](crate::search)).
 //! 9. Halley's steps, until what they leave, measured in integers, is within the error.
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` has no earlier time. At the time of a polynomial or a search, the true fraction is off from `u` by
-//! less than half the distance to the next `u`; below 2⁻²³, by less than half a step of a search's grid. On the line
-//! the product is rounded down. Beside the line the errors of both are too small to meet (proofs/search.py).
+//! A greater `u` has no earlier time. Below 2⁻²³ a search first rounds `u` to a grid, and equal ones have equal
+//! answers. At the time of a polynomial or a search, the true fraction is off by less than half the distance to the
+//! next one. On the line the product is rounded down. Beside the line the errors of both are too small to meet
+//! (proofs/search.py).
 //!
 //! A tick's time, [`Inverse::time_units`], is not rounded to `f32`. In its step 1, too, a fraction is counted from the
 //! nearer end: its line begins 1/512 from either end, that of `inverse_cdf` only from the start.

@@ -107,7 +107,7 @@
 //
 // fixed     masses, times and places as whole numbers
 // fraction  an end of the curve, and a fraction counted from it
-// search    where a polynomial reaches a target, and the proof that it does
+// search    where a polynomial reaches a target, and the measurement that it does
 // ramp      one Bezier: its mass and time from either end, when a mass has been collected
 // domain    which curves are accepted
 // curve     two ramps and the plateau, integrated: the time of a fraction by a search
@@ -151,7 +151,7 @@ pub use trigger::timed::TimedCurve;
 #[cfg(doc)]
 pub mod accuracy {}
 
-// Tests of what is not public. The published package lacks them, and `_measure`, which is for tests and benches.
+// Tests of what is not public, for which the repository's own tests turn `_measure` on; not in the published package.
 #[cfg(all(test, feature = "_measure"))]
 extern crate self as shutter_curve;
 #[cfg(all(test, feature = "_measure"))]

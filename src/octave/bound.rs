@@ -1,9 +1,9 @@
 //! The greatest error of a polynomial on a stretch, bounded from samples.
 //!
-//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = P(x(s)) - t(s)`, in lsb since the octave's middle,
-//! by its polynomial `P` and the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times the openness has
-//! degree 8 · 6 + 3 = 51, and a polynomial of degree `n < N` is nowhere greater than its greatest sample over `cos(n π
-//! / 2N)` (Ehlich and Zeller 1964).
+//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = P(x(s)) - t(s)`, by the octave's polynomial `P`
+//! and the offset `x`, both in lsb since its middle, is sampled at the N + 1 points `cos(k π / N)`. `R` times the
+//! openness has degree 8 · 6 + 3 = 51, and a polynomial of degree `n < N` is nowhere greater than its greatest sample
+//! over `cos(n π / 2N)` (Ehlich and Zeller 1964).
 
 use crate::fixed::{WORD, fixed_towards_0};
 use crate::octave::Octave;
@@ -66,8 +66,8 @@ pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
     value
 }
 
-/// Upper bounds of `|R|`, in lsb, and of `|R|` times a cubic of `s`, the openness over some unit: by all points, or by
-/// every second one. A `noise` is what the samples of either may be off by; one of NaN is refused with its bound.
+/// Upper bounds of `|R|`, in lsb, and of `|R|` times a cubic of `s`, the certificate's weight: by all points, or by
+/// every second one. A `noise` is what samples of either may be off by; of a weight of NaN it is NaN, and so the bound.
 /// `position` and `time` are in fixed point.
 #[inline(never)]
 pub(crate) const fn errors(

@@ -11,8 +11,8 @@ use crate::octave::{Octave, top_at};
 use crate::ramp::bezier::CubicBezier;
 
 /// By how many eighths a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
-/// one that serves most before its first missing octave. (The octave at the join is often too much for a polynomial;
-/// from a raised top it has less of the ramp.) Found by trial.
+/// one that serves most, above all before its first missing octave. (The octave at the join is often too much for a
+/// polynomial; from another top it may have less of the ramp.) Found by trial.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
 /// The top of a ramp without octaves. Of every fraction, and of NaN, the index is 64 or more, beyond any array, though

@@ -10,13 +10,13 @@ pub(crate) const NODES: [f32; DEGREE + 1] =
     [-0.984_807_7, -0.8660254, -0.64278764, -0.34202015, 0.0, 0.34202015, 0.64278764, 0.8660254, 0.984_807_7];
 
 /// What the eight products of `Octave::polynomial`, each rounded down, add to `P(x)`: from -1.992 to 0.664 in the unit
-/// of the coefficients, for |x| up to `MOST_OFFSET` (`proofs/octaves.py`). Half of that range, and its mean, for which
-/// the octave's middle makes up.
+/// of the coefficients, for |x| up to `MOST_OFFSET`, as a negative `x` turns a loss round (`proofs/octaves.py`). Half
+/// of that range, and its mean, for which the octave's middle makes up.
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
-/// What a time is off by, in units, as the side's end is rounded down. A search answers in whole units, too, and needs
-/// no unit more: a polynomial's time and that of a searched neighbour are in order (proofs/search.py).
+/// What a time is off by, in units, as the side's end is rounded down. Beside a neighbour that is searched for, in
+/// whole units too, order needs no more (proofs/search.py).
 const UNITS_OFF: f32 = 1.0;
 
 /// An octave, and how its polynomial is held against the exact time.

@@ -16,13 +16,12 @@ pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// least an ulp of the lesser one apart.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// How far off a fraction may be in a look-up, since joins are rounded: by three roundings of an `f64`, two of the area
-/// and one of the quotient. It is most at a far join, if the far ramp has
-/// nearly all of the exposure.
+/// How far off the fraction of a join may be, from which a far path counts and up to which a ramp is looked up: three
+/// roundings of an `f64`, two of the area and one of the quotient; most if the far ramp has nearly all.
 // proofs/certificate.py
 pub(crate) const JOIN_OFF: f32 = 3.0 / (1u64 << 53) as f32;
 /// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 512 times as great, with 60
-/// roundings of an `f64`.
+/// roundings of an `f64`, counted on paper.
 // proofs/certificate.py
 pub(crate) const FRACTION_OFF: f32 = 1.0 / (1u64 << 36) as f32;
 /// The greatest offset, in widths. A word ends at 1/2; the rest is for what single precision rounds.
@@ -39,7 +38,7 @@ const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 /// 1, less what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
-/// Bounds of an octave's errors, each over its limit.
+/// Bounds of an octave's errors, each divided by its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ErrorOverLimit {
     /// In time. The limit is [`FORWARD_ERROR`] of [`Path::size_of_time`].
@@ -78,8 +77,8 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
     }
 
     // `rounding` is what rounding adds to an answer's error in time: Horner's rule, the side's end, and what the path
-    // is off by. `noise` is what a sample hides: as much, for its own answer, and SAMPLE_OFF, and its position's
-    // rounding by 1/2 and 13 · 2⁻²⁰, with a margin (proofs/certificate.py). Both in lsb.
+    // is off by. `noise` is what a sample may be off by: `rounding`, as it is a rounded answer, too; SAMPLE_OFF; and
+    // half a position and 13 · 2⁻²⁰, with a margin (proofs/certificate.py). Both in lsb.
     let ends = [value(&stretch.time, -1.0), value(&stretch.time, 1.0)];
     let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
     let path_off = slope_bound_lsb * fraction_off / span.width + (ends[1] / lsb) as f32 * TIME_OFF;
@@ -115,17 +114,17 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
         let (time_error, exposure_error) =
             errors(octave, &position, &time, &[f0, f1, f2, f3], [noise, noise * most_weight], all);
         let error = time_error + rounding;
-        // From the exact time to the answer's, `s` moves by at most `run`: along a run `d` time grows by at least
-        // `d slowest`, and by at least `t3 d³ / 4`, as it grows by `d t'(m) + t3 d³ / 4` about the middle m of the run,
-        // where t' >= 0 (proofs/certificate.py). So it is enough that one of the two is `error`, or that `run` is the
-        // whole stretch, 2. As it doubles, it may be twice too long.
+        // From the exact time to the answer's, `s` moves by at most `run`: so far that time grows by `error`, or by the
+        // whole stretch, 2. Time grows by at least `run slowest`. It also grows by at least `run³ t3 / 4`: about the
+        // middle m of the run it is `run t'(m) + run³ t3 / 4`, and t' >= 0 (proofs/certificate.py). One of both is
+        // enough. As it doubles, `run` may be twice too long.
         let mut run = error / most;
         while run < 2.0 && run * slowest < error && run * run * run * t3 < 4.0 * error {
             run *= 2.0;
         }
-        // On the run the openness grows by `run steepest` at most. If the bound is accepted, a run collects less than
-        // half an ulp of exposure, and from any `a` of the span to the stretch's end there are more than two
-        // ([`Span::half`]). So `s` stays on the stretch, or leaves the ramp by its join.
+        // On the run the weight grows by `run steepest` at most. All this holds up to the stretch's end. So if the
+        // bound is accepted, less than half an ulp of exposure is collected, and to that end there are more than two
+        // ([`Span::half`]): `s` does not reach it, unless it is the join.
         let on_ramp = exposure_error + (rounding + error * WEIGHT_OFF) * most_weight + error * run * steepest;
         let beyond = error * beyond_per_lsb;
         let backward = if beyond > on_ramp { beyond } else { on_ramp };

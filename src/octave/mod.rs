@@ -15,7 +15,7 @@
 //! | word | meaning | type, unit |
 //! |---|---|---|
 //! | *position* | `a`, less the power | `i32`, 2⁻³² of the power; it wraps from 3/2 of the power on |
-//! | *center* | a position near the middle | the same; as their difference fits, wrapping does no harm |
+//! | *center* | a position near the middle of the span | the same; as their difference fits, wrapping does no harm |
 //! | *shift* | 0, or more for a short span | the lowest 5 bits of a center |
 //! | *width* | the power, halved `shift` times | `f32` |
 //! | *offset*, `x` | position less center | `i32`, 2⁻³² of the width; in `f64` in widths |

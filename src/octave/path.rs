@@ -59,7 +59,7 @@ impl<'a> Path<'a> {
 
     /// What an error in time is relative to, at a time since the side's end: |time|; or, if time 0 lies inside the
     /// curve, where that would ask for too much, the greater |time| of both ends. Both at most the interval:
-    /// so the error is below 0.19 tick of 2²⁴ as well.
+    /// so FORWARD_ERROR of it is below 0.19 tick, in an interval of 2²⁴.
     #[inline(never)]
     pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
         let [start, end] = [self.curve.end_time(Side::Start), self.curve.end_time(Side::End)];

@@ -4,7 +4,7 @@ use crate::fixed::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
 use crate::octave::SHIFT_MASK;
 
 /// [`Span::new`] halves `width` while `half <= FILLED * width`. A word of offsets ends at 1/2 width. It has to hold at
-/// most 0.489 widths: 0.48 or 0.47, and 0.009.
+/// most 0.489 widths: 0.48 or 0.47, and 0.009. A shift of 18 would make 0.0175 of that, beyond a candidate's reach.
 ///
 /// | widths | |
 /// |---|---|
@@ -17,7 +17,7 @@ const MOST_SHIFT: u32 = 17;
 
 /// The part of an octave that lies on one ramp, in `a`.
 pub(crate) struct Span {
-    /// Not rounded, as joins are not; `to` is, and `half` has room for that.
+    /// Not rounded to `f32`; `to` is, and `half` has room for that.
     pub(crate) from: f64,
     pub(crate) to: f32,
     pub(crate) middle: f32,

@@ -18,8 +18,8 @@ const MASS_SHIFT: u32 = 9;
 /// Those of a way are in `2^WAY_SHIFT` fine units, as they are up to six times the interval.
 const WAY_SHIFT: u32 = 3;
 
-/// [`Ramp::place_of_time`] finds a way within `|time| / 2^TIME_SHIFT + LEAST_WAY_ERROR` fine units, with the time in
-/// units: the first term is a quarter ulp of the time at most, and `2^fine` times less if units are coarser.
+/// [`Ramp::place_of_time`] finds a way within `|time| / 2^TIME_SHIFT + LEAST_WAY_ERROR` fine units. For that, |time| in
+/// units counts as if in fine ones: that is a quarter ulp of the time at most, and less where units are coarser.
 const TIME_SHIFT: u32 = 26;
 /// Within this error, in fine units, a search for a way always ends: 25 would do (proofs/search.py).
 const LEAST_WAY_ERROR: i64 = 32;

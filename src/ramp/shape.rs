@@ -27,8 +27,8 @@ impl Shape {
     /// `∫ f t' dp` since the end, from the first power: the mass, not divided by the area.
     #[inline(never)]
     pub(crate) const fn mass(&self) -> [f64; 6] {
-        // time[j] is of p^(j + 1), so its derivative has the factor COUNT[j]. mass[i] is of p^(i + 1), and its integral
-        // is divided by COUNT[i].
+        // time[j] is of p^(j + 1), so its derivative has the factor COUNT[j]. Times f[k] that is of p^(j + k), and its
+        // integral is divided by COUNT[j + k].
         const COUNT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
         let Self { openness: f, time: t } = self;
         let (mut mass, mut j) = ([0.0; 6], 0);

@@ -103,7 +103,7 @@ const fn exponent_of_ticks(length_units: u64, rate: u32, exponent: i32) -> i32 {
     96 - product.wrapping_sub(1).leading_zeros() as i32 + exponent
 }
 
-/// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
+/// The error of a rate at which the interval has too many ticks, with the greatest at which it has not, or 0.
 #[cold]
 #[inline(never)]
 const fn too_high(length_units: u64, rate: u32, exponent: i32) -> ScheduleError {

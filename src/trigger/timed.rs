@@ -216,16 +216,16 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
         Pulses::new(tried!(self.frame(n)), duty)
     }
 
-    /// How many ticks of exposure each trigger needs, so that the next is surely `least` later ([`Self::surely_keep`]).
+    /// How many ticks of exposure each trigger needs, so that the next is surely `least` later.
+    ///
+    /// Of these 1.04 ticks may be lost by rounding two, and one by what the shift cuts; and of `exposure_ticks` 2⁻²¹:
+    /// by two ulp of a fraction at two ends 2⁻²² (accuracy.md), by rounding it, `1 - duty` and their product 3 · 2⁻²⁴.
     const fn room(&self, least: u32) -> u32 {
         least.saturating_add(3 + (self.exposure_ticks >> 21))
     }
 
-    /// Are `least` ticks kept by each of `n` equal shares of a `part` of the exposure, whatever the curve?
-    ///
-    /// Openness is at most 1, so a share takes `part / n` ticks or more. Of those 2.04 and 2⁻²¹ of `exposure_ticks` may
-    /// be lost, which [`Self::room`] has: by a share's two ends 1.04 ticks and four ulp of a fraction, at most 2⁻²²
-    /// (accuracy.md); by rounding `exposure_ticks`, `1 - duty` and their product, 3 · 2⁻²⁴; by the shift a tick.
+    /// Are `least` ticks kept by each of `n` equal shares of a `part` of the exposure, whatever the curve? Openness is
+    /// at most 1, so a share takes `part / n` ticks or more.
     const fn surely_keep(&self, part: u32, n: u32, least: u32) -> bool {
         n == 0 || least == 0 || part / n >= self.room(least)
     }

@@ -45,7 +45,7 @@ const HELD: &[(&str, &[&str])] = &[
     ("tests/curve/ticks.rs::the_most_that_keep_the_gap", &["below both `wanted` and 2²²", "the number, at most 23"]),
     ("tests/curve/ticks.rs::the_max_triggers_of_anything", &["It is 0 only if `wanted` is 0"]),
     ("tests/curve/ticks.rs::a_filled_schedule_is_each_trigger_alone",
-        &["Openness is at most 1, so", "by a share's two ends", "rounded down with a margin"]),
+        &["Openness is at most 1, so", "Of these 1.04 ticks", "rounded down with a margin"]),
     ("tests/curve/ticks.rs::direct_frames_are_large", &["127 or more", "Each further octave", "It is 0 on curves"]),
     ("cli/tests/program/plan.rs::the_pictures_of_the_docs_are_as_they_are_drawn",
         &["dimmed by up to 39 %", "none is dimmed"]),
