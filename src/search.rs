@@ -6,7 +6,7 @@
 
 use crate::fixed::{WORD, power_of_two, product, product_up, single};
 
-/// From this step on each halves a bracket, at first the whole ramp. The most steps seen in a search are 12.
+/// From this step on each halves a bracket, at first the whole ramp. Searches seldom take as many.
 const FREE_STEPS: u32 = 16;
 /// After a step of more than this share of the place, single precision tells what is missing.
 const FAR: f32 = 0.1;

@@ -79,10 +79,10 @@ impl CubicBezier {
     }
 }
 
-/// The time at a `fraction` of the interval from `start` to `end`; or an end of its ramp, `from` or `to`, if that is
-/// passed by no more than rounding explains. Times were rounded to `f32`, and `(t - start) / (end - start)` was
-/// computed in it: by 2⁻²⁴ of the greatest time for the ramp's end, as much for `start` and `end` together, which count
-/// `1 - fraction` and `fraction`, and 3 · 2⁻²⁴ of the interval for three operations.
+/// The time at a `fraction` of the interval from `start` to `end`; or an end of its ramp, `from` or `to`, if the time
+/// is beyond it by no more than rounding explains. For the caller rounded times to `f32`, and may have computed the
+/// fraction in it, `(t - start) / (end - start)`. Half an ulp of the greatest time is allowed for the ramp's end, as
+/// much for `start` and `end` together, and 3 · 2⁻²⁴ of the interval for three operations.
 const fn snapped(start: f64, end: f64, fraction: f32, from: f32, to: f32) -> f32 {
     let (fraction, from, to) = (fraction as f64, from as f64, to as f64);
     // From the nearer end, so that 0 and 1 are exact.

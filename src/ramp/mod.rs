@@ -93,7 +93,7 @@ impl Ramp {
         let time = units.of(t);
         let way = (time - units.of(self.end_time(from))).abs();
         let ways = Series { c: &self.way_powers(from), shift: WAY_SHIFT };
-        // |time|, or one less: fewer registers than `abs` takes make the search faster.
+        // |time|, or one less. (By `abs` a cdf takes 35 cycles more.)
         let size = time ^ (time >> 63);
         (from, ways.solve(units.refined(way), (size >> TIME_SHIFT) + LEAST_WAY_ERROR).0)
     }
