@@ -1,10 +1,12 @@
 // Elements of the page.
 
+import { KINDS } from './scene.js';
+
 export const $ = (id) => document.getElementById(id);
 
-/** A field's name, as it stands on the page. */
-export const label = (id) =>
-  id === 'fully_open' ? 'flashes while fully open' : $(id)?.labels[0].firstChild.data.trim().replace(/,$/, '') ?? id;
+/** A key's name, as its field has it on the page; another word is its own. */
+export const label = (id) => id === 'fully_open' ? 'flashes while fully open'
+  : Object.hasOwn(KINDS, id) ? $(id).labels[0].firstChild.data.trim().replace(/,$/, '') : id;
 
 /** A place as a picture takes it, however far outside it is. */
 export const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);

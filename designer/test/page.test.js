@@ -554,6 +554,9 @@ test('links of garbage get a message', async () => {
     SOFT.replace('triggers=12', 'triggers=12.5'), ALL_RAMP.replace('unit=ms', 'unit=parsec'),
     ...['NaN', '1e308', '-Infinity'].map((x) => ALL_RAMP.replaceAll(/\d+(\.\d+)?/g, x)),
     ALL_RAMP.replace('triggers=256', 'triggers=4294967295'),
+    // What the program then says names words that are no fields.
+    `${SOFT.replace('0.4', '9')}&trace={"trace":"a","model":"b","efficiency":"c","unit":"s","exposure":1,`
+      + '"exposure_error":1,"link":1}',
   ];
   for (const [i, hash] of garbage.entries()) {
     // As the page's first address, or typed into it.
