@@ -12,7 +12,7 @@ if [ ! -d "$(rustc --print target-libdir --target "$target")" ] &&
     ! rustup target add "$target"; then
     # Without it, the standard library can be compiled where its source is there: rustup's, or Debian's compiler's.
     if [ ! -d "$(rustc --print sysroot)/lib/rustlib/src/rust/library" ]; then
-        RUSTC=$(TARGETS=$target ../.ci/thumb.sh sh -c 'echo "${RUSTC:-}"') && [ -n "$RUSTC" ] || {
+        RUSTC=$(TARGETS=$target TOOLS= ../.ci/thumb.sh sh -c 'echo "${RUSTC:-}"') && [ -n "$RUSTC" ] || {
             echo "designer: missing the target: rustup target add $target (or rustup component add rust-src)" >&2
             exit 1
         }
