@@ -85,7 +85,9 @@ async function play({ seed, count }) {
     before = edge;
     // Every fifth time, once the program has told of it: the facts are those of what is on the screen.
     if (i % 5 === 4 && !wrong?.reason) await until(() => model.told?.scene === scene);
-    if (model.told?.scene === scene && wrong && $('problem').hidden) fault('what is wrong is not told');
+    // Be it the engine or the program that finds it.
+    const { told } = model, isWrong = told?.scene === scene && (wrong || told.wrong);
+    if (isWrong && $('problem').hidden) fault('what is wrong is not told');
     if (view && model.told?.scene === scene) {
       const exposure = $('facts').querySelector('[data-fact=exposure] b')?.textContent;
       const [, told, unit] = /(\d[\d.e+-]*)(?:\s*±\s*\S+)?\s*([mµn]?s)/.exec(exposure) ?? [];
