@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use crate::errors::Measured;
 use crate::fact;
 use crate::outcome::{Fit, From};
-use crate::report::facts;
+use crate::report::{because, facts, untested};
 use crate::trace::{Clock, Reading, Tell, Warning};
 
 /// The fit of the trace `name`, with all warnings about it, as an object of JSON. What is not known is null, and all
@@ -26,7 +26,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
     let told: Vec<_> = warnings.iter().map(Tell::message).collect();
     let more = json!({
         "model": fit.chosen.title(),
-        "because": crate::report::because(fit),
+        "because": because(fit),
         "triggers": triggers(&fit.triggers),
         "triggers_from": if fit.from == From::Model { "model" } else { "trace" },
         "model_triggers": triggers(&fit.model_triggers),
@@ -39,7 +39,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "light_lowers": fit.inverted,
         "fit": {
             "explained": fit.test.explained,
-            "tested": fit.test.tested,
+            "tested": untested(fit).is_none(),
             "sigma": fit.test.sigma,
             "structure": fit.test.share,
             "structure_at_s": fit.test.at,

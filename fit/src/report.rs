@@ -12,7 +12,7 @@ use crate::fact::{self, Fact};
 use crate::outcome::{Fit, From, Reason, Test, Tolerance};
 use crate::signal::Kind;
 use crate::speed;
-use crate::trace::{from_opening, sampling_interval};
+use crate::trace::{Warning, from_opening, sampling_interval};
 use crate::unit::{MOST_PLACES, Unit, decimals, fixed, plus_minus, short, trimmed, without_dust};
 
 /// Longer tables lose their middle; half as many rows stay at each end.
@@ -143,22 +143,22 @@ pub fn facts(fit: &Fit) -> Vec<Fact> {
 
 /// Why nothing tells whether the model explains the trace, where nothing does.
 pub fn untested(fit: &Fit) -> Option<&'static str> {
-    // Then what was recorded is another thing than the light.
-    const VOID: [&str; 5] = ["clipped", "cut_tail", "overload", "pulsed", "undershoot"];
+    let is_of_light =
+        |it: &Warning| !matches!(it, Warning::Clipped { .. } | Warning::CutTail { .. } | Warning::Pulsed { .. });
     match fit.exposure {
+        _ if !fit.test.explained => None,
         _ if !fit.test.tested => Some("there is too little dark to know the noise by"),
         Measured { value, error } if error > 0.5 * value => Some("the trace tells too little"),
-        _ => {
-            fit.warnings.iter().any(|it| VOID.contains(&it.code())).then_some("what is recorded is not the light alone")
-        }
+        _ if fit.warnings.iter().all(is_of_light) => None,
+        _ => Some("what is recorded is not the light alone"),
     }
 }
 
 fn judgement(fit: &Fit) -> String {
     let Test { explained, sigma, share, at, .. } = fit.test;
-    match (explained, untested(fit)) {
-        (true, Some(why)) => format!("untested: {why}"),
-        (true, None) => "the model explains the trace".into(),
+    match untested(fit) {
+        Some(why) => format!("untested: {why}"),
+        None if explained => "the model explains the trace".into(),
         _ => format!(
             "structure that the model has not: {} % of the light,\n             {} ({} standard deviations)",
             short(100.0 * share.abs(), 2),

@@ -59,7 +59,10 @@ fn what_is_doubtful_is_told() {
     still(&lowered, &|_| lowered.warnings == [Warning::Inverted]);
     let clipped = with(&|_, v| v.min(1.9));
     is_told(&clipped, &|w| matches!(w, Warning::Clipped { at: 1.9, share } if *share > 0.4));
-    assert!(report::untested(&clipped).is_some() && report::untested(&lowered).is_none());
+    for (fit, tested) in [(&clipped, false), (&lowered, true)] {
+        assert_eq!(report::untested(fit).is_none(), tested);
+        assert_eq!(shutter_fit::json("", fit, &[])["fit"]["tested"], tested);
+    }
     let near = |x: f64, to: f64, by: f64| (x - to).abs() < by;
     still(
         &with(&|t, v| v + 0.04 * (std::f64::consts::TAU * 400.0 * t).sin()),
