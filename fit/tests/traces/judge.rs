@@ -15,7 +15,8 @@ const EARLY: f64 = 1e3;
 const INTERVAL: f64 = 1.96;
 /// Results beyond these, as shares of the exposure, are wrong: of the triggers, of the exposure.
 const WRONG: (f64, f64) = (0.0015, 0.005);
-/// Intervals are too wide where more of them hold the truth than would once in so many times, if so large a share did.
+/// Intervals are too wide where more of them hold the truth than would once in so many times, if so large a share did:
+/// fewer than 194 never are.
 const TOO_WIDE: (f64, f64) = (50.0, 0.98);
 
 /// What came of a trace.
@@ -91,8 +92,18 @@ impl Row {
         row.simple = case.kind.map(|kind| fit.chosen <= kind);
         row.from_trace = fit.from == From::Trace;
         row.warnings = fit.warnings.iter().map(Warning::code).collect();
-        row.is_told = fit.warnings.iter().any(tells);
+        row.is_told = fit.warnings.iter().any(|warning| row.is_told_by(warning));
         row
+    }
+
+    /// Does a warning tell that the results may be so wrong? None of noise or drift does, and one of sharp edges no more
+    /// than what it says: half a sample at an edge, a sample of the exposure.
+    fn is_told_by(&self, warning: &Warning) -> bool {
+        const BESIDE: [&str; 7] = ["noise", "drift", "inverted", "hum", "spikes", "glitches", "partial_frame"];
+        match warning {
+            Warning::SharpEdges { share, .. } => self.triggers <= 0.5 * share && self.exposure <= *share,
+            other => !BESIDE.contains(&other.code()),
+        }
     }
 
     pub fn is_wrong_silently(&self) -> bool {
@@ -101,16 +112,6 @@ impl Row {
 
     pub fn says(&self, code: &str) -> bool {
         self.warnings.contains(&code)
-    }
-}
-
-/// Does a warning tell that a result may be wrong? None of noise or drift does, nor one of edges that half a sample
-/// cannot make wrong.
-fn tells(warning: &Warning) -> bool {
-    const BESIDE: [&str; 7] = ["noise", "drift", "inverted", "hum", "spikes", "glitches", "partial_frame"];
-    match warning {
-        Warning::SharpEdges { share, .. } => 0.5 * share > WRONG.0,
-        other => !BESIDE.contains(&other.code()),
     }
 }
 
