@@ -251,8 +251,7 @@ messages! {
     NoiseHidesRamps { noise: f64 }
         "noise of {:.1} % of the light hides the ramps' shape; average several shots, or use more light",
         100.0 * noise;
-    /// Of a recorder that shows moments, nobody knows where between two samples an edge was: the share of the exposure
-    /// that a sample is.
+    /// A sample as a share of the exposure: a recorder of moments does not show where between two of them an edge was.
     SharpEdges { step: f64, share: f64 }
         "edges within two samples: each is known to {} at best (the sampling interval by the root of 12), and the \
          exposure to a sample, {} of it; sample faster if that matters",
