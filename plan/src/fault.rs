@@ -173,7 +173,7 @@ pub enum What {
     )]
     DutyAndPulse,
     #[error("above 0 and at most 1 is required")]
-    Duty,
+    Part,
     #[error("it is less than half a tick of {hz} Hz")]
     PulseOfNoTick { hz: u32 },
     #[error("it goes with duty, which makes pulses of many lengths")]

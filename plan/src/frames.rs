@@ -236,7 +236,7 @@ fn lamp(flashes: &Flashes, curve: Option<&ShutterCurve>, timer: Timer) -> Result
         },
         (None, Some(duty)) => match duty as f32 {
             duty if duty > 0.0 && duty <= 1.0 => Ok(Lamp::Doses { duty }),
-            _ => refused("flashes.duty", What::Duty),
+            _ => refused("flashes.duty", What::Part),
         },
     }
 }

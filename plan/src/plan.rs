@@ -106,7 +106,7 @@ impl Plan {
         };
         let scene = asked.in_seconds()?;
         let (shutter, flashes) = (&scene.shutter, &scene.flashes);
-        let n = number(&scene)?;
+        let (n, peak) = (number(&scene)?, shutter.peak()?);
         let [start, end] = match (&curve, &shutter.trigger_times) {
             (Some(curve), _) => [curve.open_start(), curve.close_end()].map(f64::from),
             (None, times) => {
@@ -153,7 +153,6 @@ impl Plan {
         let most = frames.most(n, MOST_TRIGGERS + 1);
         plan.curve = shape.zip(curve).map(|(shape, shutter)| {
             let moved = shape.rounding(&asked.shutter) * f64::from(timer.hz);
-            let peak = plan.scene.shutter.measured.as_ref().and_then(|it| it.peak).unwrap_or(1.0);
             Curve { shape, shutter, most, moved, peak }
         });
         plan.held_off()

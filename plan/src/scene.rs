@@ -170,6 +170,16 @@ impl Shutter {
         self.unit.unwrap_or(Unit::Second)
     }
 
+    /// Its curve's peak, as a share of full light.
+    ///
+    /// # Errors
+    /// One that is no share.
+    pub fn peak(&self) -> Result<f64, Fault> {
+        let peak = self.measured.as_ref().and_then(|it| it.peak).unwrap_or(1.0);
+        let is_share = peak > 0.0 && peak <= 1.0;
+        is_share.then_some(peak).ok_or_else(|| Fault::new("shutter.measured.peak", What::Part))
+    }
+
     /// As a table of a scene's text, with its checksum where it was measured: its own, or the one that it has.
     pub fn text(&self) -> String {
         let text = toml::to_string(&BTreeMap::from([("shutter", self)])).expect("numbers and texts are TOML");
