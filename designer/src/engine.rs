@@ -153,7 +153,7 @@ impl Question {
         view.times = shape.times.map(f64::from).to_vec();
         view.ramps = points.into_iter().flatten().flat_map(|(t, y)| [t.into(), y.into()]).collect();
         view.cdf = times.flat_map(|t| [t.into(), curve.cdf(t).into()]).collect();
-        view.exposure = curve.exposure().into();
+        view.exposure = f64::from(curve.exposure()) * self.scene.shutter.peak().unwrap_or(1.0);
         let asked = self.scene.flashes.triggers.unwrap_or_default() as u32;
         let n = asked.min(MOST_TRIGGERS);
         let u = |i: f32| i / n as f32;
