@@ -140,15 +140,16 @@ fn judged(seed: u64, path: &Path) -> Result<u8, String> {
     let ended = catch_unwind(AssertUnwindSafe(|| shutter::command::run(args, &mut out, &mut err)));
     let text = String::from_utf8_lossy(&out).into_owned() + &String::from_utf8_lossy(&err);
     let took = clock.elapsed().as_secs_f64();
-    let is_no_number = |word: &str| ["inf", "-inf", "nan", "-nan"].contains(&word);
-    // The file's own words stand in these lines, and in quotes; elsewhere a number stands alone or behind a sign.
+    let is_no_number = |word: &str| ["inf", "nan"].contains(&word);
+    // The file's own words stand in these lines, and in quotes; elsewhere a number stands between these marks.
     let is_quoted = |line: &&str| {
         ["signal ", "times ", "# Read"].iter().any(|start| line.starts_with(start))
-            || ["'", "the columns of numbers are"].iter().any(|part| line.contains(part))
+            || ["'", "the columns of numbers are", "no finite number"].iter().any(|part| line.contains(part))
     };
     let lines = text.lines().filter(|line| !is_quoted(line));
     let own = lines.flat_map(|line| line.split('"').step_by(2));
-    let mut words = own.flat_map(|text| text.split([' ', '(', ')'])).map(str::to_lowercase);
+    let mut words =
+        own.flat_map(|text| text.split([' ', '(', ')', ',', ';', ':', '+', '-', '±'])).map(str::to_lowercase);
     match ended {
         Err(_) => Err("a panic".into()),
         Ok(code) if code != 0 && code != 2 => Err(format!("exit code {code}")),
