@@ -126,8 +126,8 @@ fn set_ups(plan: &Plan) -> String {
     }
 }
 
-/// Names of their own, and what rows must have in common, where an object of JSON tells it: the timer, the edge, the
-/// set-up and the lamp's lag. An array's elements also tell the same.
+/// Each has a name of its own. An object of JSON tells its timer, edge, set-up and lamp's lag; all others have these in
+/// common. An array's elements also tell the same.
 fn alike(form: Form, plans: &[(String, Plan)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
