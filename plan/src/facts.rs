@@ -278,7 +278,7 @@ fn set_up(plan: &Plan) -> String {
         (None, Doses { .. }) => "not said: duty is for one in the light's path".into(),
         (None, FullyOpen) => "not said: fully_open is for one in the light's path".into(),
         (None, Triggered | Equal { .. }) if plan.curve.is_some() => {
-            format!("not said: emulated, or in the light's path, with {}", dimmed())
+            format!("not said: emulated, or in the light's path, which dims the flashes to {}", dimmed())
         }
         (None, _) => "not said".into(),
     }
