@@ -96,8 +96,8 @@ impl Row {
         row
     }
 
-    /// Does a warning tell that the results may be so wrong? None of noise or drift does, and one of sharp edges no more
-    /// than what it says: half a sample at an edge, a sample of the exposure.
+    /// Does a warning tell that the results may be so wrong? None of noise or drift does, and one of sharp edges no
+    /// more than what it says: half a sample at an edge, a sample of the exposure.
     fn is_told_by(&self, warning: &Warning) -> bool {
         const BESIDE: [&str; 7] = ["noise", "drift", "inverted", "hum", "spikes", "glitches", "partial_frame"];
         match warning {
