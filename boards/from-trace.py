@@ -166,7 +166,7 @@ def x():
     record("x.csv", [truth])
     runs("shutter fit x.csv --columns 1,CH1 --sync FALLS --out x.toml")
     refused("fully_open", plan("x.toml", "pico", "--set-up in_path --triggers 8 --min-gap 0"))
-    refused("delay = 0 below [flashes]", plan("x.toml", "pico", "--set-up emulated --triggers 8 --min-gap 0"))
+    refused("flashes' own `delay` = 0", plan("x.toml", "pico", "--set-up emulated --triggers 8 --min-gap 0"))
     fires(truth, "x.toml", "in_path --fully-open", "--triggers 4 --min-gap 100us")
     # The way on that is named: an emulated curve that begins with the edge.
     fires(truth, "x.toml", "emulated --delay 0ms --sync-falls true", "--triggers 4 --min-gap 0", delay=0)

@@ -159,7 +159,7 @@ fn delay(plan: &Plan) -> Vec<Fact> {
     let edge = match falls {
         Some(true) => "falling edge",
         Some(false) => "rising edge",
-        None => "edge (sync_falls: which?)",
+        None => "edge (`sync_falls`: which?)",
     };
     let told = format!("{} from the sync's {edge} to the start of opening", unit.show(seconds));
     let known = error.zip(plan.scene.shutter.measured.as_ref().and_then(|it| Some(it.unit.seconds(it.trigger_error?))));
@@ -275,8 +275,8 @@ fn set_up(plan: &Plan) -> String {
             "emulated: equal pulses while the camera's own shutter stays open".into()
         }
         (Some(SetUp::Emulated), _) => FLASHES.into(),
-        (None, Doses { .. }) => "not said: duty is for one in the light's path".into(),
-        (None, FullyOpen) => "not said: fully_open is for one in the light's path".into(),
+        (None, Doses { .. }) => "not said: `duty` is for one in the light's path".into(),
+        (None, FullyOpen) => "not said: `fully_open` is for one in the light's path".into(),
         (None, Triggered | Equal { .. }) if plan.curve.is_some() => {
             format!("not said: emulated, or in the light's path, which dims the flashes to {}", dimmed())
         }
@@ -296,22 +296,22 @@ fn doubts(plan: &Plan) -> Vec<Message> {
     let inverted = told.filter(|(told, said)| told != said).map(|(told, said)| {
         let edge = if said { "falling" } else { "rising" };
         format!(
-            "the trace has sync_falls = {told}, and the flashes count from the {edge} edge: that is right if \
+            "the trace has `sync_falls` = {told}, and the flashes count from the {edge} edge: that is right if \
              something between the camera and the timer inverts the sync"
         )
     });
     let curve = plan.curve.as_ref().filter(|it| plan.timer.is_given && it.moved >= HALF_TICK);
     let moved = curve.map(|curve| {
         let ticks = count(curve.moved.ceil() as u64, "tick");
-        format!("f32 moves the curve's times by up to {ticks}; they are nearest where open_start is 0")
+        format!("f32 moves the curve's times by up to {ticks}; they are nearest where `open_start` is 0")
     });
     let length = plan.edge_to_end();
     let is_off = plan.timer.off(length) >= HALF_TICK;
     let rate = is_off.then(|| format!("the timer has {}", plan.timer.told(length)));
     let dimmed = dimmed(plan).map(|doses| {
         format!(
-            "the shutter is in the light's path, and dims the flashes to {doses}; duty = 0.5 (--duty, for pulses) or \
-             fully_open (--fully-open, for xenon) makes doses equal"
+            "the shutter is in the light's path, and dims the flashes to {doses}; `duty` = 0.5 (for pulses) or \
+             `fully_open` (for xenon) makes doses equal"
         )
     });
     let unequal = unequal(plan)
@@ -360,7 +360,7 @@ fn delay_differs(plan: &Plan) -> Option<String> {
     differs.then(|| {
         let unit = plan.unit;
         let (own, traced) = (unit.show(delay.seconds), unit.plus_minus(traced, error));
-        format!("the delay of {own} below [flashes] counts, and the trace has {traced}")
+        format!("the flashes' own delay of {own} counts, and the trace has {traced}")
     })
 }
 

@@ -133,7 +133,7 @@ pub enum What {
     Inner { error: CurveError, number: f64 },
     #[error("it is beyond f32 (3.4e38 s)")]
     Beyond,
-    #[error("f32 is off by {} % of the interval here; count the times from nearer to open_start", short(*.percent, 2))]
+    #[error("f32 is off by {} % of the interval here; count the times from nearer to `open_start`", short(*.percent, 2))]
     Lost { percent: f64 },
     #[error("a finite number is required")]
     Finite,
@@ -155,7 +155,7 @@ pub enum What {
     Bits,
     #[error(
         "the frame ends at tick {ticks}, and with {bits} bits it may end at {most} at the latest; a prescaler of {by} \
-         fits: timer_hz = {}",
+         fits: `timer_hz` = {}",
         short(*.hz, 10)
     )]
     Wraps { ticks: f64, bits: u32, most: f64, by: f64, hz: f64 },
@@ -176,7 +176,7 @@ pub enum What {
     Part,
     #[error("it is less than half a tick of {hz} Hz")]
     PulseOfNoTick { hz: u32 },
-    #[error("it goes with duty, which makes pulses of many lengths")]
+    #[error("it goes with `duty`, which makes pulses of many lengths")]
     MinPulse,
     #[error("0 or more is required, and a delay")]
     Spread,
@@ -206,9 +206,9 @@ pub enum What {
     },
     #[error("{}; {}", .pair.told("triggers"), keep(.most))]
     Close { pair: Pair, most: Option<u32> },
-    #[error("{}; {}; a smaller duty leaves more", .pair.told("pulses"), keep(.most))]
+    #[error("{}; {}; a smaller `duty` leaves more", .pair.told("pulses"), keep(.most))]
     DosesClose { pair: Pair, most: Option<u32> },
-    #[error("pulse {i} lasts {lasts}, and {least} is required; {}; a greater duty lasts longer", keep(.most))]
+    #[error("pulse {i} lasts {lasts}, and {least} is required; {}; a greater `duty` lasts longer", keep(.most))]
     DoseShort { i: usize, lasts: Ticks, least: Ticks, most: Option<u32> },
     #[error("pulses of {length}: {}; {}{}", reach(.pair), fitting(.longest), or_keep(.most))]
     Pulses { length: Ticks, pair: Option<Pair>, longest: Ticks, most: Option<u32> },
@@ -219,15 +219,15 @@ pub enum What {
          `shutter fit --model free` writes one"
     )]
     TimesInPath,
-    #[error("it goes with a curve, and this scene has trigger_times, as they were measured")]
+    #[error("it goes with a curve, and this scene has `trigger_times`, as they were measured")]
     OfCurve,
-    #[error("{asked} are asked for, and trigger_times has {has}: a fit with --triggers {asked} writes as many")]
+    #[error("{asked} are asked for, and `trigger_times` has {has}: a fit with --triggers {asked} writes as many")]
     TimesOther { asked: f64, has: usize },
     #[error("1 to {MOST_TRIGGERS} can be planned, not {0}")]
     TimesCount(usize),
-    #[error("trigger {i} comes before open_start, from where ticks count")]
+    #[error("trigger {i} comes before `open_start`, from where ticks count")]
     TimesEarly { i: usize },
-    #[error("trigger {i} comes more than 2^31 ticks after open_start; count from nearer to it, or take a slower timer")]
+    #[error("trigger {i} comes more than 2^31 ticks after `open_start`; count from nearer to it, or take a slower timer")]
     TimesLate { i: usize },
     #[error("trigger {} comes before trigger {i}", i + 1)]
     TimesOutOfOrder { i: usize },
@@ -235,7 +235,7 @@ pub enum What {
     TimesClose(Pair),
 }
 
-const EMULATED: &str = "it is for a shutter in the light's path, and set_up is \"emulated\"; there, ";
+const EMULATED: &str = "it is for a shutter in the light's path, and `set_up` is \"emulated\"; there, ";
 
 /// What would help.
 fn keep(most: &Option<u32>) -> String {
@@ -269,9 +269,9 @@ fn ways(most: &Option<u32>, fully_open: &bool, by_edge: &bool, lag: Option<Strin
             1 => "a single trigger comes behind it".into(),
             most => format!("all of up to {most} triggers come behind it"),
         }),
-        fully_open.then(|| "fully_open = true (--fully-open) fires behind it, while the shutter is fully open".into()),
+        fully_open.then(|| "`fully_open` = true fires behind it, while the shutter is fully open".into()),
         lag.map(|lag| format!("a lag of {lag} is the most")),
-        is_emulated.then(|| "an emulated curve may begin with the edge: delay = 0 below [flashes]".into()),
+        is_emulated.then(|| "an emulated curve may begin with the edge: the flashes' own `delay` = 0".into()),
         (*by_edge && !is_emulated).then(|| "an earlier contact gives more time".into()),
     ];
     ways.into_iter().flatten().map(|way: String| format!("; {way}")).collect()

@@ -59,7 +59,7 @@ impl Timer {
     pub(crate) fn told(&self, seconds: f64) -> String {
         let Self { hz, exact_hz, bits, is_given } = *self;
         if !is_given {
-            return "none, so there are times alone; timer_hz gives ticks".into();
+            return "none, so there are times alone; `timer_hz` gives ticks".into();
         }
         let off = self.off(seconds);
         let rate = match exact_hz == f64::from(hz) {

@@ -402,7 +402,7 @@ fn no_delay_is_older_than_its_trace() {
     folder.write("leaf.toml", own);
     let (delay, first, err) = ticks("--set-up emulated");
     assert_eq!((delay, first), (Some(2001), early));
-    has(&err, &["the delay of 2.0005 ms below [flashes] counts, and the trace has -2.0"], &[]);
+    has(&err, &["the flashes' own delay of 2.0005 ms counts, and the trace has -2.0"], &[]);
 }
 
 /// A speed among several keeps its own.

@@ -182,7 +182,7 @@ messages! {
     /// The edge comes after the opening in so many of all shots, by so much at most.
     SyncLate { few: usize, all: usize, by: f64 }
         "the edge of the sync comes after the start of opening in {few} of {}, by up to {}: no flash can come \
-         before it; those while the shutter is fully open can (fully_open), as with an X contact",
+         before it; those while the shutter is fully open can (`fully_open`), as with an X contact",
         counted(all, "shot"), time(by);
     SoundCard [Remedy::From]
         "a sound card passes no steady light, and may change its gain by itself: switch that off, and compare with \
