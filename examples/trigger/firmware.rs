@@ -43,46 +43,25 @@ const DIRECT_TICK: u32 = 179;
 // And there is time enough between two pulses.
 const _: () = assert!(LATEST + DIRECT_TICK + LEAD < MIN_GAP);
 
-/// An error to make, to see that it is seen.
-#[derive(Clone, Copy, PartialEq)]
-enum Fault {
-    None,
-    Lost,
-    Twice,
-    Early,
-    Late,
-    Close,
-    NoDelay,
-    NoWrap,
-}
+/// Errors to make, to see that they are seen.
+const FAULTS: [&str; 7] = ["lost", "twice", "early", "late", "close", "nodelay", "nowrap"];
 
-impl Fault {
-    /// The one that the command line names, which the runner makes of the environment's `TRIGGER_FAULT`. An unknown one
-    /// ends the program.
-    fn planted() -> Self {
-        let mut line = [MaybeUninit::uninit(); 256];
-        let line = sys_get_cmdline_uninit(&mut line).ok().and_then(|line| str::from_utf8(line).ok());
-        // Without the runner there is another command line.
-        match line.map(|line| line.trim_end_matches('\0').strip_prefix("TRIGGER_FAULT=")) {
-            Some(None | Some("")) => Self::None,
-            Some(Some("lost")) => Self::Lost,
-            Some(Some("twice")) => Self::Twice,
-            Some(Some("early")) => Self::Early,
-            Some(Some("late")) => Self::Late,
-            Some(Some("close")) => Self::Close,
-            Some(Some("nodelay")) => Self::NoDelay,
-            Some(Some("nowrap")) => Self::NoWrap,
-            _ => {
-                error!("TRIGGER_FAULT is lost, twice, early, late, close, nodelay or nowrap");
-                ExitCode::from(2).exit_process()
-            }
-        }
-    }
+/// The fault that the command line names, which the runner makes of the environment's `TRIGGER_FAULT`; none without. An
+/// unknown one ends the program.
+fn planted() -> &'static str {
+    let mut line = [MaybeUninit::uninit(); 256];
+    let line = sys_get_cmdline_uninit(&mut line).ok().and_then(|line| str::from_utf8(line).ok());
+    let named = line.and_then(|line| line.trim_end_matches('\0').strip_prefix("TRIGGER_FAULT="));
+    let Some(named) = named.filter(|named| !named.is_empty()) else { return "" };
+    FAULTS.into_iter().find(|fault| *fault == named).unwrap_or_else(|| {
+        error!("TRIGGER_FAULT is one of {}", FAULTS);
+        ExitCode::from(2).exit_process()
+    })
 }
 
 /// A frame as it is being fired.
 struct Frame {
-    fault: Fault,
+    fault: &'static str,
     /// The pulses that come after the next, and when the shutter starts to open: the delay after the edge of the sync.
     ticks: Option<TriggerTicks<'static>>,
     base: u32,
@@ -94,7 +73,7 @@ struct Frame {
 }
 
 static FRAME: Mutex<RefCell<Frame>> =
-    Mutex::new(RefCell::new(Frame { fault: Fault::None, ticks: None, base: 0, due: None, next: 0, fired: Vec::new() }));
+    Mutex::new(RefCell::new(Frame { fault: "", ticks: None, base: 0, due: None, next: 0, fired: Vec::new() }));
 
 impl Frame {
     /// Arms the timer for the next pulse, if there is one.
@@ -120,9 +99,9 @@ enum Wrong {
 }
 
 /// The ticks of a frame, of fewer triggers where the gap asks for it.
-fn plan(wanted: u32, fault: Fault) -> Result<TriggerTicks<'static>, ScheduleError> {
+fn plan(wanted: u32, fault: &str) -> Result<TriggerTicks<'static>, ScheduleError> {
     // A pulse may be late and the next on time.
-    let gap = if fault == Fault::Close { 1 } else { MIN_GAP + LATEST };
+    let gap = if fault == "close" { 1 } else { MIN_GAP + LATEST };
     let flash = FLASH.min_gap(gap);
     flash.trigger_ticks(flash.max_triggers(wanted.min(CAPACITY as u32)))
 }
@@ -131,11 +110,16 @@ fn plan(wanted: u32, fault: Fault) -> Result<TriggerTicks<'static>, ScheduleErro
 fn fire(frame: &mut Frame) {
     acknowledge();
     let Some(due) = frame.due else { return };
-    // A fault spoils one pulse. Which, is settled before the pulse is waited for.
-    if frame.next == 5 && !matches!(frame.fault, Fault::None | Fault::NoDelay) {
-        fire_wrongly(frame, due);
-    } else {
-        while is_before(due) {}
+    // A fault spoils one pulse; how, is settled before it is waited for.
+    let (due, pulses) = match (frame.next, frame.fault) {
+        (5, "lost") => (due, 0),
+        (5, "twice") => (due, 2),
+        (5, "early") => (due.wrapping_sub(LEAD), 1),
+        (5, "late") => (due.wrapping_add(LATEST + 1), 1),
+        _ => (due, 1),
+    };
+    while is_before(due) {}
+    for _ in 0..pulses {
         pulse(frame);
     }
     frame.next += 1;
@@ -144,19 +128,6 @@ fn fire(frame: &mut Frame) {
 
 fn is_before(due: u32) -> bool {
     (now().wrapping_sub(due) as i32) < 0
-}
-
-/// As [`fire`] does, but for the fault.
-fn fire_wrongly(frame: &mut Frame, due: u32) {
-    let fault = frame.fault;
-    while fault != Fault::Early && is_before(due) {}
-    while fault == Fault::Late && is_before(due.wrapping_add(LATEST + 1)) {}
-    if fault != Fault::Lost {
-        pulse(frame);
-    }
-    if fault == Fault::Twice {
-        pulse(frame);
-    }
 }
 
 /// One pulse, and when it was.
@@ -213,7 +184,7 @@ fn check(edge: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong>
 /// Sleeps until the frame that starts at `base` is over: until a gap has passed after its end.
 fn wait_for_end(base: u32) {
     let length = FLASH.length() + MIN_GAP;
-    while (now().wrapping_sub(base.wrapping_add(length)) as i32) < 0 {
+    while is_before(base.wrapping_add(length)) {
         // An interrupt that comes in here wakes the processor, and is served at the end: none is missed.
         critical_section::with(|cs| {
             let frame = FRAME.borrow_ref(cs);
@@ -226,10 +197,10 @@ fn wait_for_end(base: u32) {
 
 #[entry]
 fn main() -> ! {
-    let fault = Fault::planted();
+    let fault = planted();
     critical_section::with(|cs| FRAME.borrow_ref_mut(cs).fault = fault);
     // The counter wraps in the middle of the third frame.
-    start(if fault == Fault::NoWrap { u32::MAX } else { PERIOD * 3 + PERIOD / 5 * 2 });
+    start(if fault == "nowrap" { u32::MAX } else { PERIOD * 3 + PERIOD / 5 * 2 });
     let begin = now().wrapping_add(PERIOD);
     let mut good = true;
     let mut wrapped = false;
@@ -237,7 +208,7 @@ fn main() -> ! {
     for (i, wanted) in FRAMES.into_iter().enumerate() {
         // What a capture unit holds of the sync's edge: the counter at that moment, which no interrupt makes late.
         let edge = begin.wrapping_add(i as u32 * PERIOD);
-        let delay = if fault == Fault::NoDelay { 0 } else { measured::DELAY_TICKS };
+        let delay = if fault == "nodelay" { 0 } else { measured::DELAY_TICKS };
         let base = edge.wrapping_add(delay);
         let begun = now();
         let plan = match plan(wanted, fault) {
@@ -258,22 +229,18 @@ fn main() -> ! {
         let fired = critical_section::with(|cs| FRAME.borrow_ref(cs).fired.clone());
         let across = fired.last() < fired.first();
         wrapped |= across;
-        let n = plan.len();
-        let [first, last] = [plan.clone().next(), plan.clone().next_back()].map(Option::unwrap_or_default);
         match check(edge, plan, &fired) {
             Ok(late) => info!(
-                "frame {}: {} of {} triggers, first {}, last {}, {} ticks late at most, planned in {} ticks{}",
+                "frame {}: {} of {} triggers, {} ticks late at most, planned in {} ticks{}",
                 i,
                 fired.len(),
                 wanted,
-                first,
-                last,
                 late,
                 planning,
                 if across { ", across the counter's wrap" } else { "" }
             ),
             Err(wrong) => {
-                error!("frame {}: {} of {} triggers: {}", i, fired.len(), n, wrong);
+                error!("frame {}: {} of {} triggers: {}", i, fired.len(), wanted, wrong);
                 good = false;
             }
         }

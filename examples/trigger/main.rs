@@ -1,15 +1,13 @@
-//! Firmware that triggers: a frame's pulses, each placed and fired by a timer's interrupt and
-//! checked against the clock. It runs on the mps2-an386 board, a Cortex-M4F at 25 MHz, that QEMU has:
+//! Firmware that plans and fires with the crate. A timer's interrupt places each pulse, and the clock judges it. It runs
+//! on QEMU's board mps2-an386, a Cortex-M4F at 25 MHz:
 //!
 //! ```text
 //! cargo trigger
 //! ```
 //!
-//! It exits with 0 only if every pulse of every frame came once, in order, with the minimum gap kept, never before its
-//! tick and the delay after the edge of the camera's sync and at most `LATEST` ticks after that, and if the counter
-//! wrapped within a frame.
-//! `TRIGGER_FAULT=lost` (or `twice`, `early`, `late`, `close`, `nodelay`, `nowrap`) before that command plants such
-//! a fault, which the check sees: it exits with 1. With 2 if the fault is another one.
+//! It exits with 0 only if each pulse of each frame came once, at most `LATEST` ticks after its own tick and never
+//! before, with the minimum gap kept, and if the counter wrapped within a frame. `TRIGGER_FAULT=lost` before the
+//! command plants a fault, which the check has to see; `FAULTS` lists all.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 // Registers are written, as they must be, in `board` alone; the entry and the handler take unsafe attributes.
 #![cfg_attr(target_os = "none", allow(unsafe_code))]
