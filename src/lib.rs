@@ -85,7 +85,7 @@
 //!
 //! A `static` curve takes 1136 bytes of flash and no start-up code. The code for ticks takes about 4.5 kB, and 0.3 kB
 //! of stack. On a Cortex-M4F, the time of a fraction takes 60 to 110 cycles on average. A search takes 500 to 2500, or
-//! more on a density that is dim at both ends. Building a curve at run time takes 2.9 million. These are cycles of a
+//! more on a density that is dim at both ends. Building a curve at run time takes 2.8 million. These are cycles of a
 //! model; no chip has been measured. A frame of up to [`ShutterCurve::direct_triggers`] triggers needs no search.
 //!
 //! # Features and minimum Rust
