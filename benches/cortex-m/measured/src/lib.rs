@@ -9,7 +9,6 @@ pub mod baseline;
 
 /// A curve of the reference data, or a hard case.
 pub struct Curve {
-    pub name: &'static str,
     pub opening: baseline::Ramp,
     pub closing: baseline::Ramp,
     pub hard: &'static [f32],
