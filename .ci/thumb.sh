@@ -15,58 +15,29 @@ cache=${XDG_CACHE_HOME:-$HOME/.cache}/shutter-curve-thumb
 bin=$cache/bin
 # Debian's compiler lies apart: it is used only where the machine's own lacks the targets.
 compiler=$cache/compiler
+debian=$(uname -m)-linux-gnu
 
 say() { echo "thumb: $*" >&2; }
 fail() { say "$*"; exit 1; }
+has() { command -v "$1" >/dev/null; }
 
-for tool in rustc cargo; do
-    command -v "$tool" >/dev/null || fail "missing $tool: https://rustup.rs"
-done
-host=$(rustc -vV | sed -n 's/^host: //p')
-
-has_apt() { command -v apt-get >/dev/null && command -v dpkg >/dev/null; }
-
-# refresh HINT: Debian's lists anew, once: old ones may name an older compiler than the crate needs, or none.
-refresh() {
-    [ -n "${refreshed:-}" ] && return
-    apt-get update >&2 || fail "apt-get update failed; missing $1"
-    refreshed=yes
-}
-
-# unpack NAME HINT COST PACKAGE...: the Debian packages, unpacked into the cache folder NAME; COST is said before.
-# With dependencies where NAME ends in '+': those that are not installed.
+# unpack NAME HINT COST PACKAGE...: Debian's packages, with the dependencies that are not installed, unpacked into the
+# cache folder NAME; COST is said before.
 unpack() {
     local name=$1 hint=$2 cost=$3; shift 3
-    local folder=$cache/${name%+}
-    [ -e "$folder" ] && return
-    has_apt || fail "missing $hint"
+    has apt-get && has dpkg || fail "missing $hint"
     say "fetching and unpacking Debian's $* into $cache: $cost ..."
-    local work
+    local work deb
     work=$(mktemp -d "$cache/tmp.XXXXXX")
     mkdir -p "$work/debs/partial" "$work/root"
-    refresh "$hint"
-    if [ "$name" != "${name%+}" ]; then
-        apt-get install --yes --download-only --no-install-recommends -o Debug::NoLocking=true \
-            -o Dir::Cache::archives="$work/debs" "$@" >"$work/log" 2>&1
-    else
-        (cd "$work/debs" && apt-get download "$@") >"$work/log" 2>&1
-    fi || { cat "$work/log" >&2; fail "cannot download Debian's $*; missing $hint"; }
-    local deb
-    for deb in "$work"/debs/*.deb; do
-        # Of the compiler's source only the library is needed, a tenth of the files.
-        dpkg --fsys-tarfile "$deb" |
-            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' \
-                --exclude './usr/src/*/compiler' ||
-            fail "cannot unpack $deb; missing $hint"
-    done
-    mv "$work/root" "$folder"
+    # Old lists may name an older compiler than the crate needs, or none.
+    { apt-get update && apt-get install --yes --download-only --no-install-recommends -o Debug::NoLocking=true \
+        -o Dir::Cache::archives="$work/debs" "$@"; } >"$work/log" 2>&1 ||
+        { cat "$work/log" >&2; fail "cannot download Debian's $*; missing $hint"; }
+    for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$work/root"; done
+    rm -rf "${cache:?}/$name"
+    mv "$work/root" "$cache/$name"
     rm -r "$work"
-}
-
-# depends PACKAGE PATTERN HINT: the package that PACKAGE depends on whose name has the PATTERN.
-depends() {
-    apt-cache depends "$1" 2>/dev/null | sed -n "s/^ *Depends: \($2\)\$/\1/p" | grep . ||
-        fail "Debian's $1 is not here, or depends on no $2; missing $3"
 }
 
 # wrap COMMAND LIBRARIES PROGRAM [ARGUMENT...]: the unpacked PROGRAM as COMMAND.
@@ -74,31 +45,23 @@ wrap() {
     local command=$1 libraries=$2; shift 2
     [ -x "$1" ] || fail "the package of ${command##*/} holds no $1; remove $cache to unpack it again"
     mkdir -p "${command%/*}"
-    {
-        echo '#!/bin/sh'
-        echo "LD_LIBRARY_PATH='$libraries' exec$(printf " '%s'" "$@") \"\$@\""
-    } >"$command"
+    printf '#!/bin/sh\nLD_LIBRARY_PATH=%q exec %s "$@"\n' "$libraries" "$(printf '%q ' "$@")" >"$command"
     chmod +x "$command"
 }
 
 # Debian's rustc and clippy, with a core library compiled for each target and put where rustup would put it.
 set_up_rustc() {
     local hint="the targets: rustup target add ${targets[*]} (or Debian's rustc-web and rust-web-src)"
-    local root=$compiler/usr
+    local root=$compiler/usr tool
     if [ ! -e "$compiler.ready" ]; then
-        has_apt || fail "missing $hint"
-        local std llvm
-        refresh "$hint"
-        std=$(depends libstd-rust-web-dev 'libstd-rust-web-[0-9.]*' "$hint")
-        llvm=$(depends "$std" 'libllvm[0-9]*' "$hint")
-        rm -rf "$compiler"
-        unpack compiler "$hint" "150 MB to fetch, 1.1 GB unpacked, a minute or two" \
-            rustc-web rust-web-clippy libstd-rust-web-dev "$std" "$llvm" rust-web-src
-        wrap "$compiler/bin/rustc" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/rustc"
-        wrap "$compiler/bin/cargo-clippy" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/cargo-clippy"
+        unpack compiler "$hint" "140 MB to fetch, 1.1 GB unpacked, a minute or two" \
+            rustc-web rust-web-clippy libstd-rust-web-dev rust-web-src
+        for tool in rustc cargo-clippy; do wrap "$compiler/bin/$tool" "$root/lib/$debian" "$root/bin/$tool"; done
     fi
     # The linker is rustup's, and rustup may have removed the toolchain that it was in.
-    local linker=$root/lib/rustlib/$host/bin/rust-lld lld
+    local host lld linker
+    host=$(rustc -vV | sed -n 's/^host: //p')
+    linker=$root/lib/rustlib/$host/bin/rust-lld
     if [ ! -x "$linker" ]; then
         lld=$(rustc --print sysroot)/lib/rustlib/$host/bin/rust-lld
         [ -x "$lld" ] || fail "no rust-lld at $lld (rustup's toolchains have one); missing $hint"
@@ -109,10 +72,6 @@ set_up_rustc() {
 
     local work target missing=()
     for target in "${targets[@]}"; do
-        # The page's target is the machine's own compiler's, if that has it.
-        case $target in
-        wasm*) [ ! -d "$("$HOST_RUSTC" --print target-libdir --target "$target")" ] || continue ;;
-        esac
         [ -d "$root/lib/rustlib/$target/lib" ] || missing+=("$target")
     done
     [ ${#missing[@]} -gt 0 ] || return 0
@@ -130,21 +89,13 @@ set_up_rustc() {
         -Zbuild-std-features=compiler-builtins-mem "${missing[@]/#/--target=}") >&2 ||
         fail "cannot compile core for ${missing[*]} with Debian's rustc-web"
     for target in "${missing[@]}"; do
-        mkdir -p "$work/lib"
+        mkdir -p "$work/lib" "$root/lib/rustlib/$target"
         cp "$work/target/$target/release/deps/"lib{core,compiler_builtins}-*.r{lib,meta} "$work/lib"
-        mkdir -p "$root/lib/rustlib/$target"
         mv "$work/lib" "$root/lib/rustlib/$target/lib"
     done
     rm -r "$work"
 }
 
-mkdir -p "$cache"
-# Two at once would unpack into the same folders.
-exec 9>"$cache/lock"
-if command -v flock >/dev/null; then flock 9; fi
-path=$bin
-# The machine's own compiler, for what runs on the machine: Debian's takes nearly twice as long.
-export HOST_RUSTC=${HOST_RUSTC:-$(rustc --print sysroot)/bin/rustc}
 lacks_targets() {
     local target
     for target in "${targets[@]}"; do
@@ -152,11 +103,20 @@ lacks_targets() {
     done
     return 1
 }
-# Not again where it could not, and Debian's compiler was taken.
-if lacks_targets && [ ! -e "$compiler.ready" ] && command -v rustup >/dev/null; then
+
+for tool in rustc cargo; do has $tool || fail "missing $tool: https://rustup.rs"; done
+mkdir -p "$cache"
+# Two at once would unpack into the same folders.
+exec 9>"$cache/lock"
+if has flock; then flock 9; fi
+# The machine's own compiler, for what runs on the machine: Debian's takes nearly twice as long.
+export HOST_RUSTC=${HOST_RUSTC:-$(rustc --print sysroot)/bin/rustc}
+# Not again where rustup could not, and Debian's compiler was taken.
+if lacks_targets && [ ! -e "$compiler.ready" ] && has rustup; then
     say "rustup target add ${targets[*]} ..."
     rustup --quiet target add "${targets[@]}" >&2 || say "rustup cannot fetch them"
 fi
+path=$bin
 if lacks_targets; then
     set_up_rustc
     export RUSTC=$compiler/bin/rustc
@@ -164,24 +124,23 @@ if lacks_targets; then
 fi
 
 tools=" ${TOOLS-board} "
-if [[ $tools = *" board "* ]] && ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; then
-    unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" \
+# lacks KIND PROGRAM: it is asked for, and neither on the machine nor in the cache.
+lacks() { [[ $tools = *" $1 "* ]] && ! has "$2" && [ ! -x "$bin/$2" ]; }
+if lacks board qemu-system-arm; then
+    unpack qemu "qemu-system-arm: Debian's package qemu-system-arm" \
         "some 20 MB to fetch, 80 MB unpacked, some seconds" qemu-system-arm
-    wrap "$bin/qemu-system-arm" "$cache/qemu/usr/lib/$(uname -m)-linux-gnu:$cache/qemu/lib/$(uname -m)-linux-gnu" \
+    wrap "$bin/qemu-system-arm" "$cache/qemu/usr/lib/$debian:$cache/qemu/lib/$debian" \
         "$cache/qemu/usr/bin/qemu-system-arm" -L "$cache/qemu/usr/share/qemu"
 fi
-
-if [[ $tools = *" linux "* ]] && ! command -v qemu-arm >/dev/null && [ ! -x "$bin/qemu-arm" ]; then
-    unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" \
+if lacks linux qemu-arm; then
+    unpack qemu-user "QEMU's user mode: Debian's package qemu-user" \
         "13 MB to fetch, 100 MB unpacked, some seconds" qemu-user
-    for emulator in arm riscv32 s390x; do
-        wrap "$bin/qemu-$emulator" \
-            "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
-            "$cache/qemu-user/usr/bin/qemu-$emulator"
+    for emulator in qemu-arm qemu-riscv32 qemu-s390x; do
+        wrap "$bin/$emulator" "$cache/qemu-user/usr/lib/$debian:$cache/qemu-user/lib/$debian" \
+            "$cache/qemu-user/usr/bin/$emulator"
     done
 fi
-
-if [[ $tools = *" board "* ]] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
+if lacks board defmt-print; then
     say "building defmt-print, which prints the log: a minute ..."
     # Not optimised: it has little to decode, and is sooner built.
     RUSTC=$HOST_RUSTC CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" \
