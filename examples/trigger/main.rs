@@ -1,5 +1,5 @@
-//! Firmware that plans and fires with the crate. A timer's interrupt places each pulse, and the clock judges it. It runs
-//! on QEMU's board mps2-an386, a Cortex-M4F at 25 MHz:
+//! Firmware that plans and fires with the crate: a timer's interrupt places each pulse, and the clock judges it. It
+//! runs on QEMU's board mps2-an386, a Cortex-M4F at 25 MHz:
 //!
 //! ```text
 //! cargo trigger
