@@ -12,8 +12,7 @@ export const label = (id) => id === 'fully_open' ? 'flashes while fully open'
 export const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
 
 export function write(element, text) {
-  const node = element.firstChild ?? element.appendChild(document.createTextNode(''));
-  if (node.data !== text) node.data = text;
+  if (element.textContent !== text) element.textContent = text;
 }
 
 /** Tells whether any of the things it is called with is another one than the last time. */

@@ -2,19 +2,16 @@
 
 import { html, nothing, render } from 'lit-html';
 import { $, watch } from './dom.js';
-import { give } from './form.js';
-import { change, model } from './model.js';
+import { model } from './model.js';
 import { hash, syncOf } from './scene.js';
 import { emitForm } from './studio.js';
+import { helps } from './told.js';
 
 // { text, file } or { reason, remedies } of the form and the scene, as a promise.
-let made = null;
-// Is the panel in sight? Before it is, nothing is written.
-let isSeen = false;
+let made;
 
 export function startExport() {
   const whole = async (act) => {
-    showExport();
     const { text, file } = await made;
     if (text) act(text, file);
   };
@@ -26,17 +23,10 @@ export function startExport() {
 
 const chosen = () => $('forms').querySelector(':checked');
 
-/** The panel is in sight, or asked for: from now on it is written. */
-export function showExport() {
-  isSeen = true;
-  drawExport(model);
-}
-
 const isNewForm = watch();
 
 export function drawExport({ now: { scene }, view, wrong }) {
   $('link').disabled = !view || Boolean(wrong?.id || scene.untold);
-  if (!isSeen) return offerCopy(Boolean(view && !wrong && !scene.untold));
   const form = chosen().id.replace('form-', '');
   if (!isNewForm(scene, form, wrong)) return;
   say('');
@@ -86,22 +76,6 @@ function showForm({ text, reason, remedies = [] }) {
   const summary = html`<summary>${lines} lines of comments, copied as well</summary>`;
   const folded = html`<details>${summary}${head.trimEnd()}</details>`;
   render(lines < 3 ? text : [folded, text.slice(head.length)], $('code'));
-}
-
-/** Remedies as buttons: they change the scene, or lead to a field. */
-export const helps = (remedies) => remedies.map(([words, to]) => {
-  const help = () => {
-    if (typeof to === 'string') $(to).focus();
-    else if ('untold' in to) change({ scene: { ...model.now.scene, ...to } });
-    else give(changed(to));
-  };
-  return html`<button type="button" @click=${help}>${words}</button>`;
-});
-
-// Of the flashes that the program proposes, the values that are others.
-function changed({ unit, ...flashes }) {
-  const now = model.now.scene.flashes;
-  return Object.fromEntries(Object.entries(flashes).filter(([key, value]) => value !== now[key]));
 }
 
 const say = (words) => [$('told'), $('speeds-told')].forEach((it) => it && (it.textContent = words));

@@ -1,10 +1,10 @@
 // The numbers: as people write them they become those of the scene, and stay as they are typed.
 
-import { $, label, watch, write } from './dom.js';
+import { $, label, write } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { dial, parse } from './numbers.js';
 import {
-  CHOICES, FIELDS, INNER, KINDS, LAMP, STOPS, TIMES,
+  CHOICES, FIELDS, INNER, KINDS, LAMP, TIMES,
   inUnit, innerOf, isCount, lampOf, perSecond, tidy, timesOf, valueOf, withInner, withTimes, withValues,
 } from './scene.js';
 import { readTrace } from './trace.js';
@@ -19,8 +19,6 @@ export function startForm() {
     // Once the focus is elsewhere.
     setTimeout(() => drawForm(model));
   });
-  $('flashes').addEventListener('input', ({ target }) => setTriggers(STOPS[target.value], 'flashes'));
-  $('flashes').addEventListener('change', seal);
 }
 
 // The number in a field of the form; an error says why there is none.
@@ -65,10 +63,9 @@ function setTriggers(n, key) {
 }
 
 // The numbers of another lamp.
-function lamp(kind, { flashes: { triggers }, unit }) {
+function lamp(kind, { shutter, flashes: { triggers } }) {
   const next = { pulse: null, duty: null, min_pulse: null, fully_open: kind === 'full' || null };
-  const share = ((model.view?.exposure ?? 0) * perSecond(unit)) / triggers;
-  if (kind === 'pulse') next.pulse = tidy(share / 4, 2) || 1;
+  if (kind === 'pulse') next.pulse = tidy((shutter.close_end - shutter.open_start) / triggers / 8, 2) || 1;
   if (kind === 'duty') next.duty = 0.3;
   return next;
 }
@@ -114,9 +111,7 @@ function dialled(value, unit) {
 }
 
 // Writes the numbers; what is typed stays as it is.
-const isNewField = watch();
 export function drawForm({ now: { scene }, wrong }) {
-  if (!isNewField(scene, wrong, document.activeElement)) return;
   for (const id of FIELDS) {
     const { value, words } = wordsOf(scene, id);
     if (wrong?.id !== id && $(id).value !== words && !tells(id, value, scene.unit)) $(id).value = words;

@@ -3,7 +3,7 @@
 import { html, nothing, render, svg } from 'lit-html';
 import { $, atMost, watch, write } from './dom.js';
 import { Handles } from './handles.js';
-import { model, tell } from './model.js';
+import { model } from './model.js';
 import { isSameShape, originSeconds, perSecond, short, syncOf, tidy } from './scene.js';
 import { viewOf } from './view.js';
 
@@ -83,9 +83,10 @@ export const rms = (samples) => Math.sqrt(samples.reduce((sum, [, , r]) => sum +
 export class Graph {
   constructor(box) {
     this.box = box;
-    this.isNew = { all: watch(), cursor: watch(), trace: watch() };
+    this.isNew = { all: watch(), trace: watch() };
     this.handles = new Handles(this);
     this.room = box.clientWidth;
+    this.cursor = null;
     new ResizeObserver(([{ contentRect }]) => {
       this.room = contentRect.width;
       this.draw();
@@ -107,30 +108,25 @@ export class Graph {
     return perSecond(this.scene.unit);
   }
 
-  /** The model's cursor at a time in the scene's unit; none without a time. */
-  cursorAt(t) {
-    return { cursor: Number.isFinite(t) ? t / this.perUnit : null };
-  }
-
+  /** Points at a time in the scene's unit; at none without one. */
   pointAt(t) {
-    tell(this.cursorAt(t));
+    this.cursor = Number.isFinite(t) ? t / this.perUnit : null;
+    this.point();
   }
 
   /** Draws the model; what has no curve of its own keeps the last one, which is marked. */
-  show({ now: { scene, trace }, last, cursor }) {
+  show({ now: { scene, trace }, last }) {
     if (!last) return;
     Object.assign(this, { scene, view: last });
     if (this.isNew.trace(trace)) {
       this.fitted = trace?.fit && { ...viewOf(trace.scene).Ok, origin: originSeconds(trace.scene) };
     }
-    const isMoved = this.isNew.cursor(cursor);
     if (this.isNew.all(scene, last, trace, this.dragged)) this.draw();
-    else if (isMoved) this.point();
   }
 
   // The time that is pointed at, in words.
   point() {
-    const { cursor } = model;
+    const { cursor } = this;
     const line = cursor === null ? '' : `M${atMost(this.x(cursor * this.perUnit))} ${TOP}V${this.cdfBottom}`;
     this.box.querySelector('.cross').setAttribute('d', line);
     write($('readout'), cursor === null ? '' : this.words(cursor));

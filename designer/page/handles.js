@@ -15,8 +15,8 @@ const STILL = { handleEvent: (event) => event.preventDefault(), passive: false }
 /** The first control point may pass the second by so much of the ramp. */
 const CROSS = 15 / 16;
 
-/** Within so many pixels of a round place, a handle snaps to it; handles that are nearer than that are in one place. */
-const MAGNET = 8, SAME = 4;
+/** Handles that are so many pixels apart are in one place. */
+const SAME = 4;
 
 const nameOf = (i) => i < 4 ? label(HANDLES[i])
   : `${i < 6 ? 'opening' : 'closing'} ramp, ${i % 2 ? 'second' : 'first'} control point`;
@@ -79,8 +79,8 @@ export class Handles {
     else t = times[0] + length * stepped(innerOf(scene)[INNER.indexOf(HANDLES[i])], by[0], step);
     const next = moved(scene, i, [t, y]);
     // A key that is held is one step.
-    const told = this.graph.cursorAt(placeOf(next, i)[0]);
-    change({ scene: next }, { key: event.repeat ? `held ${i}` : undefined, told });
+    change({ scene: next }, { key: event.repeat ? `held ${i}` : undefined });
+    this.graph.pointAt(placeOf(next, i)[0]);
   }
 
   grab = (event) => {
@@ -102,7 +102,10 @@ export class Handles {
     const to = (i, event) => {
       const [x, y] = graph.pointer(event);
       const [x0, y0] = pixels(i);
-      return this.snapped(first, i, map, [x0 + x - start[0], y0 + y - start[1]], event.altKey);
+      // Where the pointer has taken it, in round numbers.
+      const step = 2 * 10 ** Math.floor(Math.log10(map.perPixel));
+      const [t, o] = [map.t(x0 + x - start[0]), map.o(y0 + y - start[1])];
+      return [tidy(Math.round(t / step) * step, 9), i < 4 ? placeOf(first, i)[1] : tidy(o, 2)];
     };
     let i = together.length > 1 ? undefined : nearest;
     let last = first;
@@ -129,7 +132,8 @@ export class Handles {
       if (model.now.scene !== last) return end();
       // A time is moved from where it was at first: on each way its ramp's shape is rounded.
       last = moved(i < 4 ? first : last, i, to(i, event));
-      change({ scene: last }, { isDraft: true, told: graph.cursorAt(placeOf(last, i)[0]) });
+      change({ scene: last }, { isDraft: true });
+      graph.pointAt(placeOf(last, i)[0]);
     };
     const end = (event) => {
       for (const [name, listener] of listeners) holder.removeEventListener(name, listener);
@@ -143,20 +147,6 @@ export class Handles {
     const listeners = [['pointermove', move], ['pointerup', end], ['lostpointercapture', end]];
     for (const [name, listener] of listeners) holder.addEventListener(name, listener);
     addEventListener('keydown', escape, true);
-  }
-
-  // A place on the page as round numbers, or those of what is near.
-  snapped(scene, i, map, [x, y], isFree) {
-    const near = (value, perPixel, candidates, round) => {
-      const found = isFree ? undefined : candidates.find((it) => Math.abs(it - value) < MAGNET * perPixel);
-      return found ?? tidy(Math.round(value / round) * round, 9);
-    };
-    // Where the neighbours are, and 0 and 1.
-    const times = timesOf(scene);
-    const beside = i < 4 ? [times[i - 1], times[i + 1]] : i < 6 ? times.slice(0, 2) : times.slice(2);
-    const ends = beside.filter((t) => t !== undefined);
-    const t = near(map.t(x), map.perPixel, ends, 10 ** Math.floor(Math.log10(map.perPixel)) * 2);
-    return [t, i < 4 ? placeOf(scene, i)[1] : near(map.o(y), map.perPixelY, [0, 1], 0.01)];
   }
 
   /** All of them, and what joins each to its ramp's end. */

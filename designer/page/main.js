@@ -3,13 +3,13 @@
 import { presets } from 'presets';
 import { html, nothing, render } from 'lit-html';
 import { $ } from './dom.js';
-import { drawExport, showExport, startExport } from './export.js';
+import { drawExport, startExport } from './export.js';
 import { drawFacts } from './facts.js';
 import { drawForm, startForm } from './form.js';
 import { Graph, outline } from './graph.js';
 import { change, go, model, startModel, tell } from './model.js';
 import { drawPhoto } from './photo.js';
-import { FIELDS, KINDS, fromScene, hash, inUnit, originOf, perSecond, syncOf, toProgram, valueOf } from './scene.js';
+import { FIELDS, KINDS, fromScene, hash, inUnit, isSameShape, originOf, syncOf, toProgram, valueOf } from './scene.js';
 import { drawSpeeds } from './speeds.js';
 import { drawTicks } from './ticks.js';
 import { askProgram, drawBar, inWords, known } from './told.js';
@@ -19,26 +19,12 @@ import { fileOf, loadEngine, viewOf } from './view.js';
 const TITLES = { leaf: 'Leaf', trapezoid: 'Focal plane', box: 'Electronic', 'liquid-crystal': 'Liquid crystal' };
 
 let graph;
-// The panels further down that are in sight: they are written when they are seen, and on paper.
-const inSight = new Set();
 // What draws the model, each a part of the screen.
 const PARTS = [
-  drawState, askProgram, (model) => graph.show(model), drawPhoto, drawPresets,
-  (model) => drawFacts(model, graph.samples), drawForm,
-  drawTrace, drawSpeeds, drawExport, drawBar, (model) => inSight.has('ticks') && drawTicks(model),
+  drawState, askProgram, (model) => graph.show(model), drawPresets, (model) => drawFacts(model, graph.samples),
+  drawForm, drawTrace, drawSpeeds, drawBar, drawTicks, drawPhoto,
 ];
-
-// Draws all of it. A part that fails is told, and keeps neither the others nor the address from what is so.
-function drawAll(model) {
-  for (const part of PARTS) {
-    try {
-      part(model);
-    } catch (error) {
-      reportError(error);
-      missing(`A part of the page could not be drawn: ${error.message}.`);
-    }
-  }
-}
+const drawAll = (model) => PARTS.forEach((part) => part(model));
 
 function missing(words) {
   $('missing').textContent = words;
@@ -50,7 +36,6 @@ function drawState({ now: { scene, trace }, pending, view, last, canUndo, canRed
   for (const [name, is] of Object.entries(states)) document.body.classList.toggle(name, Boolean(is));
   $('undo').disabled = !canUndo;
   $('redo').disabled = !canRedo;
-  document.querySelector('h1').dataset.name = scene.name;
   document.title = `${scene.name} · Curve designer`;
 }
 
@@ -81,23 +66,6 @@ function drawPresets({ now, last }) {
 }
 
 function listen() {
-  const observer = new IntersectionObserver((entries) => {
-    for (const { target: { dataset: { panel } }, isIntersecting } of entries) {
-      inSight[isIntersecting ? 'add' : 'delete'](panel);
-      if (isIntersecting) panel === 'ticks' ? drawTicks(model) : showExport();
-    }
-  }, { rootMargin: '80px' });
-  for (const card of document.querySelectorAll('[data-panel]')) observer.observe(card);
-  addEventListener('beforeprint', () => {
-    tell({ cursor: null });
-    drawTicks(model);
-    for (const it of document.querySelectorAll('details.doubt')) it.open = true;
-  });
-  $('explain').onclick = () => {
-    $('terms').open = true;
-    $('terms').scrollIntoView();
-    $('terms').querySelector('summary').focus({ preventScroll: true });
-  };
   $('undo').onclick = () => go(-1);
   $('redo').onclick = () => go(1);
   addEventListener('keydown', (event) => {
@@ -115,16 +83,20 @@ async function begin() {
   startForm();
   startTraces();
   startExport();
-  startModel({ scene: offered[0].scene, trace: null, speeds: null }, drawAll);
   listen();
+  startModel({ scene: offered[0].scene, trace: null, speeds: null }, drawAll);
   document.body.dataset.ready = '';
   performance.mark('ready');
+  // What the forms are written by is most of the page: it comes behind the first screen.
+  PARTS.push(drawExport);
+  drawExport(model);
 }
 
 /** For tests and the curious. */
 globalThis.designer = {
-  FIELDS, KINDS, model, hash, inUnit, inWords, originOf, perSecond, syncOf, toProgram, valueOf,
+  FIELDS, KINDS, model, hash, inUnit, inWords, isSameShape, originOf, syncOf, toProgram, valueOf,
 };
 
+addEventListener('error', ({ error }) => error && missing(`A part of the page could not be drawn: ${error.message}.`));
 const fallen = ({ message }) => `The page is not whole: ${message}. Load it again, in a browser with WebAssembly.`;
 begin().catch((error) => missing(fallen(error)));

@@ -3,7 +3,6 @@
 
 import { $, watch, write } from './dom.js';
 import { collected, shareAt } from './graph.js';
-import { STOPS } from './scene.js';
 
 const WIDTH = 480, RADIUS = 35, HEIGHT = 2 * RADIUS, FINE = 2;
 const BALL = [255, 238, 205], NIGHT = [13, 16, 24];
@@ -66,10 +65,7 @@ function developed(scene, view) {
 const isNewPhoto = watch();
 
 export function drawPhoto({ now: { scene }, last: view }) {
-  const { own, flashes: { triggers, pulse, duty, fully_open, set_up } } = scene;
-  $('flashes').value = STOPS.findLastIndex((n) => n <= triggers);
-  $('flashes').setAttribute('aria-valuetext', `${triggers} flashes`);
-  write($('flash-count'), String(triggers));
+  const { own, flashes: { pulse, duty, fully_open, set_up } } = scene;
   if (!view || !isNewPhoto(view, own)) return;
   const pictures = developed(scene, view);
   for (const [i, id] of ['ideal', 'flashed'].entries()) $(id).getContext('2d').putImageData(pictures[i], 0, 0);

@@ -1,7 +1,7 @@
 // A shutter tester's table: the speeds of several traces.
 
 import { html, render } from 'lit-html';
-import { $, watch } from './dom.js';
+import { $ } from './dom.js';
 import { copyLink } from './export.js';
 import { doubt, stops } from './facts.js';
 import { change, model } from './model.js';
@@ -11,12 +11,9 @@ import { readTrace, rowFiles } from './trace.js';
 
 const COLUMNS = ['trace', 'measured', 'nearest full stop', 'on the dial', 'off by', 'spread', 'pulses', 'told by'];
 
-const isNewTable = watch();
-
 /** Draws it; while it is there, it is all there is, but for a trace that is refused. */
 export function drawSpeeds({ now: { speeds }, pending }) {
   const isShown = Boolean(speeds && !pending);
-  if (!isNewTable(speeds, isShown)) return;
   $('speeds').hidden = !isShown;
   document.body.classList.toggle('alone', isShown);
   if (!isShown) return;

@@ -1,20 +1,18 @@
-// The table of ticks, which is written when it is seen.
+// The table of ticks.
 
 import { html, nothing, render } from 'lit-html';
-import { $, watch } from './dom.js';
+import { $ } from './dom.js';
 import { doubt, doubtsOf } from './facts.js';
 import { perSecond } from './scene.js';
 
 /** Longer tables lose their middle. */
-const MOST_ROWS = 300;
-
-const isNewTicks = watch();
+const MOST_ROWS = 100;
 
 /** As the CSV has it, in the scene's unit. */
 export function drawTicks(model) {
   const { now: { scene: { unit, flashes: { timer_hz } } }, view } = model;
   const plan = view?.plan.Ok, coarse = doubtsOf(model).find(({ about }) => about === 'timer')?.text;
-  if (!plan || !isNewTicks(view, unit, coarse)) return;
+  if (!plan) return;
   const { pulses, delay, ticks } = plan, { marks } = view;
   const n = marks.length, hidden = Math.max(0, n - MOST_ROWS), per = perSecond(unit);
   const places = Math.min(12, Math.max(0, 5 - Math.floor(Math.log10(Math.abs(marks.at(-1)[0] * per)))));

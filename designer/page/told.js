@@ -2,10 +2,10 @@
 // seen wherever one is: what is wrong, computed or told, and which fields that is about.
 
 import { html, render } from 'lit-html';
-import { $, label, watch, write } from './dom.js';
-import { helps } from './export.js';
-import { go, model, tell } from './model.js';
-import { FIELDS, INNER, KINDS } from './scene.js';
+import { $, label, write } from './dom.js';
+import { give } from './form.js';
+import { change, go, model, tell } from './model.js';
+import { FIELDS, INNER } from './scene.js';
 import { tellScene } from './studio.js';
 
 /** What was told of scenes when the page was built. */
@@ -32,33 +32,35 @@ function fieldsOf({ key = '', inner }) {
   return name === 'shutteropening' ? INNER.slice(...(inner ?? [])) : name === 'trigger_times' ? ['triggers'] : [name];
 }
 
-const keys = Object.keys(KINDS).filter((key) => key.includes('_') || key === 'duty');
-const NAMES = new RegExp(`\`(\\w+)\`|\\b(${keys.join('|')})\\b`, 'g');
+/** The program's words, with the page's names in place of the keys, which it marks. */
+export const inWords = (text) => text.replace(/`(\w+)`/g, (_, key) => `“${label(key)}”`);
 
-// What a file says stands in quotes: `"trigger"`, a column's name.
-const QUOTED = /("[^"\n]*"|(?<!\w)'[^'\n]*'(?!\w))/;
+// What is wrong: as the engine finds it, the program tells it in words; and what the program alone finds.
+const wrongOf = (model) => model.wrong ?? toldNow(model)?.wrong;
 
-/** The program's words, with the page's names. */
-export const inWords = (text) => text.split(QUOTED).map((part, i) => (i % 2 ? part : named(part))).join('');
-
-const named = (text) => text.replace(/ \(--[^)]*\)| below \[flashes\]/g, '')
-  .replace(NAMES, (_, marked, key) => `“${label(marked ?? key)}”`)
-  .replace(/(?<=\w)'(?=\w)/g, '’').replace(/\btrigger(s?)\b/g, (_, many) => (many ? 'flashes' : 'flash'));
-
-// What is wrong, once it is known in words.
 function wordsOf(model) {
-  const { wrong } = model;
-  if (!wrong || wrong.reason) return wrong?.reason ?? '';
-  const told = toldNow(model)?.wrong;
-  if (!told) return '';
+  const { isLink, reason } = wrongOf(model), told = toldNow(model)?.wrong;
+  if (reason || !told) return reason ?? '';
   const [field] = fieldsOf(told);
-  return `${wrong.isLink ? 'The link holds no curve: ' : ''}${field ? `${label(field)}: ` : ''}${inWords(told.text)}`;
+  return `${isLink ? 'The link holds no curve: ' : ''}${field ? `${label(field)}: ` : ''}${inWords(told.text)}`;
 }
 
-// What would help, as [words, the flashes that do].
-const remedies = (model) => (model.wrong?.reason ? [] : toldNow(model)?.wrong?.remedies ?? []);
+/** Remedies as buttons: they change the scene, or lead to a field. */
+export const helps = (remedies) => remedies.map(([words, to]) => {
+  const help = () => {
+    if (typeof to === 'string') $(to).focus();
+    else if ('untold' in to) change({ scene: { ...model.now.scene, ...to } });
+    else give(changed(to));
+  };
+  return html`<button type="button" @click=${help}>${words}</button>`;
+});
 
-const isNewWrong = watch(), isNewBusy = watch();
+// Of the flashes that the program proposes, the values that are others.
+function changed({ unit, ...flashes }) {
+  const now = model.now.scene.flashes;
+  return Object.fromEntries(Object.entries(flashes).filter(([key, value]) => value !== now[key]));
+}
+
 const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
 const showRead = () => {
   const why = $('trace').querySelector('.wrong');
@@ -68,9 +70,9 @@ const showRead = () => {
 
 // What a person can do about it.
 function buttonsFor(model) {
-  const { wrong, note, pending } = model;
+  const { note, pending } = model, wrong = wrongOf(model);
   if (wrong?.isLink) return button('Go on without it', () => go(-1));
-  if (wrong) return helps(remedies(model));
+  if (wrong) return helps(wrong.reason ? [] : toldNow(model)?.wrong?.remedies ?? []);
   if (!note) return [];
   const close = button('Close', () => tell({ note: null }));
   return [note.act ? button(...note.act) : [], pending ? button('Show why', showRead) : [], close];
@@ -78,18 +80,13 @@ function buttonsFor(model) {
 
 /** Draws it. */
 export function drawBar(model) {
-  const { wrong, busy, note, pending, view } = model, words = wrong ? wordsOf(model) : note?.words ?? '';
-  // While something is computed, a button that is pressed stays.
-  if (isNewWrong(wrong, words, note, pending, view)) {
-    $('problem').hidden = !words;
-    $('problem').classList.toggle('wrong', Boolean(wrong || note?.isWrong));
-    render(html`<span>${words}</span><span class="buttons">${buttonsFor(model)}</span>`, $('problem'));
-  }
-  if (isNewBusy(busy, busy?.words, busy?.share)) {
-    $('busy').hidden = !busy;
-    const share = busy?.share ? `: ${Math.round(100 * busy.share)} %` : '';
-    if (busy) write($('busy').firstElementChild, `${busy.words}${share} …`);
-  }
+  const { busy, note } = model, wrong = wrongOf(model), words = wrong ? wordsOf(model) : note?.words ?? '';
+  $('problem').hidden = !words;
+  $('problem').classList.toggle('wrong', Boolean(wrong || note?.isWrong));
+  render(html`<span>${words}</span><span class="buttons">${buttonsFor(model)}</span>`, $('problem'));
+  $('busy').hidden = !busy;
+  const share = busy?.share ? `: ${Math.round(100 * busy.share)} %` : '';
+  if (busy) write($('busy').firstElementChild, `${busy.words}${share} …`);
   const at = !wrong ? [] : wrong.id ? [wrong.id] : fieldsOf(wrong);
   for (const id of FIELDS) {
     const field = $(id), is = at.includes(id);

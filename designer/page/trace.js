@@ -1,7 +1,7 @@
 // Files: a scene, a trace, several traces. How a trace is read, and what is made of it.
 
 import { html, nothing, render } from 'lit-html';
-import { $, watch } from './dom.js';
+import { $ } from './dom.js';
 import { change, model, tell } from './model.js';
 import { taken } from './numbers.js';
 import { units as UNITS } from 'presets';
@@ -16,7 +16,7 @@ const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
 const WIDTH = 400, HEIGHT = 96, BOTTOM = 18, DRAG = 4;
 /** What the button beside a message says, which leads to the control that mends it. */
 const MEND = {
-  rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', light: 'Say which way',
+  rate: 'Give the rate', unit: 'Choose the unit', columns: 'Choose the columns', light: 'Say which way',
   full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose its channel', from: 'Choose a window',
 };
 
@@ -100,7 +100,7 @@ export async function readTrace(file, asked, wanted) {
   const there = () => [model.now.scene.flashes.triggers].find(isCount) ?? 12;
   const triggers = wanted ?? there();
   const shown = model.now.trace, isSame = shown?.file === file, isSameReading = isSame && asked === shown.asked;
-  const before = model.now.scene, former = [model.pending, shown].find((it) => it?.file === file);
+  const before = model.now.scene;
   const busy = Object.assign(computing(`Reading ${file.name}`), { file });
   const answer = await fitted(busy, file, { ...asked, triggers });
   if (!answer) return;
@@ -108,9 +108,9 @@ export async function readTrace(file, asked, wanted) {
   if (!wanted && there() !== triggers) return readTrace(file, asked);
   if (answer.Err) return refuseFile(`${file.name}: ${answer.Err}`);
   const { raw, fit: { Ok: fit, Err }, ...measured } = answer.Ok;
-  const read = { file, name: file.name, asked, measured, record: whole(raw, asked, former) };
+  const read = { file, name: file.name, asked, measured, record: raw };
   // What cannot be fitted as it is read can be read otherwise.
-  if (!fit) return refuseFile('', { ...read, words: Err.text, mend: Err.mend });
+  if (!fit) return refuseFile('', { ...read, words: Err.text, mend: Err.remedy });
   tell({ busy: null });
   const give = () => {
     const name = file.name.replace(/\.\w+$/, '');
@@ -158,9 +158,10 @@ async function measure(files) {
     const answer = await fitted(busy, file, { triggers: 12 });
     if (!answer) return;
     const { Ok: fit, Err: why } = answer.Ok?.fit ?? { Err: { text: answer.Err } };
-    const { exposure_s: exposure, exposure_error_s: error, scatter, pulses, nearest_s: near } = fit ?? {};
+    const { scatter, pulses, nearest_s: near } = fit ?? {};
+    const { value, error } = fit?.facts.find(({ key }) => key === 'exposure_s') ?? {};
     const found = fit ? {
-      exposure: tidy(exposure, 6), error: tidy(error, 6), scatter: tidy(scatter, 6), pulses, near,
+      exposure: tidy(value, 6), error: tidy(error, 6), scatter: tidy(scatter, 6), pulses, near,
       doubts: fit.warnings.map(({ text }) => text), kind: fit.shutter.trigger_times ? 'the trace itself' : fit.kind,
     } : { kind: `not measured: ${why.text.split('\n')[0]}` };
     speeds.push({ name: file.name, ...none, ...found });
@@ -170,14 +171,9 @@ async function measure(files) {
   change({ speeds });
 }
 
-const isNewTrace = watch();
-
 /** Draws how the model's trace is read. */
 export function drawTrace({ now: { scene, trace }, pending }) {
-  const { unit } = scene;
-  const isHand = trace && !isSameShape(trace.scene, scene);
-  if (!isNewTrace(trace, pending, unit, isHand)) return;
-  render(panel(pending ?? trace, trace, pending, isHand), $('trace'));
+  render(panel(pending ?? trace, trace, pending, trace && !isSameShape(trace.scene, scene)), $('trace'));
   if (pending) $('reading').open = true;
 }
 
@@ -194,7 +190,7 @@ function panel(shown, trace, pending, isHand) {
   const head = pending
     ? [html`<p class="wrong" tabindex="-1">${pending.name}: ${pending.words} ${leads(pending.mend) ?? another()}</p>`,
       trace ? note(`The trace of ${trace.name} stays on the graph.`) : nothing]
-    : html`<p class="buttons">${fit.warnings.map(({ mend }) => leads(mend))}</p>`;
+    : html`<p class="buttons">${fit.warnings.map(({ remedy }) => leads(remedy))}</p>`;
   return html`${head}
     <details id="reading"><summary>How the file is read</summary>
       ${previewTable(measured)}
@@ -208,7 +204,7 @@ function panel(shown, trace, pending, isHand) {
 }
 
 /** A button that leads to what mends a doubt. */
-export const leads = (mend) => mend && press(MEND[mend], () => {
+export const leads = (mend) => MEND[mend] && press(MEND[mend], () => {
   $('reading').open = true;
   $('reading').querySelector(`[name=${mend}]`)?.focus();
 });
@@ -227,13 +223,7 @@ function previewTable({ names, rows, read }) {
     <tbody>${rows.map(row)}</tbody></table></div>`;
 }
 
-// A reading's whole record: that of the reading before, where only the window differs.
-function whole(raw, asked, before) {
-  const rest = ({ from, to, frame, full, light, sync, ...rest }) => JSON.stringify(rest);
-  return before?.record?.length && rest(asked) === rest(before.asked) ? before.record : raw;
-}
-
-// It, in the file's own time, with the window that counts; `take(from, to)` takes another, in seconds, or none.
+// The whole record, in the file's own time, with the window that counts; `take(from, to)` takes another, in seconds.
 function drawRecord(record, { from, to }, unit, take) {
   if (!record?.length) return '';
   const per = perSecond(unit), [[start], [end]] = [record[0], record.at(-1)], length = end - start || 1;
@@ -292,7 +282,7 @@ function readingForm({ file, asked, record, measured: { names, read }, fit }) {
   const columns = Array.from({ length: count }, (_, i) => [i + 1, named(i)]);
   const time = read ? (read.time?.[0] ?? '') : count > 1 ? 1 : '', signal = read?.signal[0] ?? Math.min(2, count);
   const both = (_, fields) => {
-    const chosen = ['time', 'signal'].map((name) => fields.querySelector(`[name=${name}]`).value);
+    const chosen = ['time', 'columns'].map((name) => fields.querySelector(`[name=${name}]`).value);
     return { columns: chosen.filter(Boolean).map(Number) };
   };
   const way = fit ? `${fit.light_lowers ? 'falls' : 'rises'}, by itself` : 'as it seems';
@@ -302,7 +292,7 @@ function readingForm({ file, asked, record, measured: { names, read }, fit }) {
   return html`${drawRecord(record, asked, unit, (from, to) => again({ from, to }))}
     <fieldset class="reading"><legend class="sr">How the file is read</legend>
     ${count ? [choice('time', 'time', [['', 'none: by the rate'], ...columns], time, both),
-      choice('light', 'signal', columns, signal, both),
+      choice('light', 'columns', columns, signal, both),
       choice('sync', 'sync', [['', 'none'], ...columns], asked.sync ?? '', (it) => ({ sync: Number(it) || null }))]
       : nothing}
     ${choice('unit of the time', 'unit', [['', 'as the file says'], ...UNITS.map((unit) => [unit, unit])],

@@ -51,7 +51,7 @@ function copied(view, origin) {
   const ticks = [...view.ticks], pulses = tuples(view.pulses, 2);
   return {
     Ok: {
-      times, ramps: [points.slice(0, 4), points.slice(4)], cdf: later(view.cdf, 2), exposure: view.exposure,
+      times, ramps: [points.slice(0, 4), points.slice(4)], cdf: later(view.cdf, 2),
       edges: later(view.edges, 1).flat(), marks: later(view.marks, 3),
       plan: wrong ?? { Ok: { ticks, pulses, early, delay, hz } },
     },

@@ -3,16 +3,24 @@
 //! A scene comes number by number, by its keys: a reader of JSON, or of JavaScript's objects, and what tells in words
 //! what is wrong, would each make the page's first load half as large again.
 
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 use shutter_curve::{CubicBezier, ShutterCurve};
-use shutter_fit::unit::Unit;
 use shutter_plan::fault::Fault;
-use shutter_plan::lamp::{Lamp, SetUp};
+use shutter_plan::lamp::Lamp;
 use shutter_plan::plan::{MOST_TRIGGERS, Plan};
 use shutter_plan::scene::{Scene, Shutter};
 use shutter_plan::shape::Shape;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Sets the key that is called so, if it is one of these.
+macro_rules! set {
+    ($name:ident = $value:expr; $($table:ident.$key:ident)*) => {
+        $(if $name == concat!(stringify!($table), ".", stringify!($key)) {
+            $table.$key = $value;
+        })*
+    };
+}
 
 /// The points along the cdf.
 const POINTS: u16 = 200;
@@ -35,8 +43,6 @@ pub struct View {
     pub ramps: Vec<f64>,
     /// Points of the cdf: time and share.
     pub cdf: Vec<f64>,
-    /// The effective exposure.
-    pub exposure: f64,
     /// Where the equal shares of the exposure begin and end.
     pub edges: Vec<f64>,
     /// Of each trigger the time, the openness and the share of the exposure.
@@ -69,46 +75,18 @@ impl Question {
     pub fn set(&mut self, key: &str, numbers: Vec<f64>) {
         let Self { scene: Scene { shutter, flashes, .. }, own } = self;
         let x = numbers.first().copied();
-        let is = x.map(|x| x == 1.0);
-        match key {
-            "shutter.open_start" => shutter.open_start = x,
-            "shutter.open_end" => shutter.open_end = x,
-            "shutter.close_start" => shutter.close_start = x,
-            "shutter.close_end" => shutter.close_end = x,
-            "shutter.shutteropening" => shutter.shutteropening = Some(numbers),
-            "shutter.delay" => shutter.delay = x,
-            "shutter.delay_spread" => shutter.delay_spread = x,
-            "shutter.sync_falls" => shutter.sync_falls = is,
-            "shutter.sync_settles" => shutter.sync_settles = x,
-            "shutter.nominal" => shutter.nominal = x,
-            "own.open_start" => own.open_start = x,
-            "own.trigger_times" => own.trigger_times = Some(numbers),
-            "flashes.triggers" => flashes.triggers = x,
-            "flashes.min_gap" => flashes.min_gap = x,
-            "flashes.timer_hz" => flashes.timer_hz = x,
-            "flashes.timer_bits" => flashes.timer_bits = x,
-            "flashes.pulse" => flashes.pulse = x,
-            "flashes.duty" => flashes.duty = x,
-            "flashes.min_pulse" => flashes.min_pulse = x,
-            "flashes.fully_open" => flashes.fully_open = is,
-            "flashes.lamp_lag" => flashes.lamp_lag = x,
-            "flashes.delay" => flashes.delay = x,
-            "flashes.delay_spread" => flashes.delay_spread = x,
-            "flashes.sync_falls" => flashes.sync_falls = is,
-            _ => {}
-        }
+        set!(key = x; shutter.open_start shutter.open_end shutter.close_start shutter.close_end shutter.delay
+            shutter.delay_spread shutter.sync_settles shutter.nominal own.open_start flashes.triggers flashes.min_gap
+            flashes.timer_hz flashes.timer_bits flashes.pulse flashes.duty flashes.min_pulse flashes.lamp_lag
+            flashes.delay flashes.delay_spread);
+        set!(key = x.map(|x| x == 1.0); shutter.sync_falls flashes.sync_falls flashes.fully_open);
+        set!(key = Some(numbers.clone()); shutter.shutteropening own.trigger_times);
     }
 
     /// Tells the word of a key.
     pub fn say(&mut self, key: &str, word: &str) {
         let Scene { shutter, flashes, .. } = &mut self.scene;
-        let unit = || Unit::ALL.into_iter().find(|unit| unit.name() == word);
-        match key {
-            "shutter.unit" => shutter.unit = unit(),
-            "flashes.unit" => flashes.unit = unit(),
-            "flashes.set_up" => flashes.set_up = SetUp::deserialize(StrDeserializer::<Error>::new(word)).ok(),
-            _ => {}
-        }
+        set!(key = is(word); shutter.unit flashes.unit flashes.set_up);
     }
 
     /// Has the scene a curve?
@@ -153,7 +131,6 @@ impl Question {
         view.times = shape.times.map(f64::from).to_vec();
         view.ramps = points.into_iter().flatten().flat_map(|(t, y)| [t.into(), y.into()]).collect();
         view.cdf = times.flat_map(|t| [t.into(), curve.cdf(t).into()]).collect();
-        view.exposure = f64::from(curve.exposure()) * self.scene.shutter.peak().unwrap_or(1.0);
         let asked = self.scene.flashes.triggers.unwrap_or_default() as u32;
         let n = asked.min(MOST_TRIGGERS);
         let u = |i: f32| i / n as f32;
@@ -185,6 +162,11 @@ impl Question {
         view.hz = plan.timer.hz;
         Ok(())
     }
+}
+
+/// What a word is.
+fn is<T: DeserializeOwned>(word: &str) -> Option<T> {
+    T::deserialize(StrDeserializer::<Error>::new(word)).ok()
 }
 
 /// Both ramps, straight ones as well.

@@ -1,9 +1,9 @@
-//! Fits to a trace, and what is told of them, with the page's field that mends it.
+//! Fits to a trace, and what is told of them.
 
 use serde::{Deserialize, Serialize};
 use shutter_fit::delay::Sync;
-use shutter_fit::fact::Fact;
-use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Remedy, Tell, Trace, Warning};
+use shutter_fit::fact::{Fact, Message};
+use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Tell, Trace};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Fit, From, Options, report, speed};
 use shutter_plan::fitted::{Zero, curve_shutter, shutter};
@@ -42,9 +42,9 @@ pub struct Measured {
     #[serde(flatten)]
     preview: Preview,
     read: Option<Reading>,
-    /// What was read, as (seconds of the file, signal).
+    /// The whole record, as (seconds of the file, signal).
     raw: Vec<[f64; 2]>,
-    fit: Result<Fitted, Told>,
+    fit: Result<Fitted, Message>,
 }
 
 /// A trace's fit. Times are in seconds of the scene.
@@ -58,8 +58,6 @@ struct Fitted {
     /// As the program prints it.
     report: String,
     kind: &'static str,
-    exposure_s: f64,
-    exposure_error_s: f64,
     /// The nearest full stop of a dial.
     nearest_s: Option<f64>,
     pulses: usize,
@@ -71,19 +69,9 @@ struct Fitted {
     rms: f64,
     /// Each with its standard error.
     triggers: Vec<(f64, f64)>,
-    warnings: Vec<Told>,
+    warnings: Vec<Message>,
     /// The trace as (time, openness, residual).
     samples: Vec<[f64; 3]>,
-}
-
-/// Something that is wrong or doubtful, and the field that mends it.
-#[derive(Serialize)]
-struct Told {
-    text: String,
-    /// Another file where none of them helps.
-    mend: Option<&'static str>,
-    /// The fact that is doubtful.
-    about: &'static str,
 }
 
 /// Reads the trace in `bytes`, and fits it.
@@ -99,10 +87,14 @@ pub fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn Fn
         sync: asked.sync.map(Column::Number),
     };
     let recording = trace::open(&bytes, &options);
+    let pairs = |trace: &Trace| trace.times.iter().zip(&trace.values).map(|(t, v)| [*t, *v]).collect();
+    // The window is one of the whole record.
+    let has_window = asked.from.or(asked.to).is_some();
+    let whole = has_window.then(|| trace::open(&bytes, &trace::Options { from: None, to: None, ..options }));
+    let shown = whole.as_ref().unwrap_or(&recording);
+    let raw = shown.as_ref().map_or(Vec::new(), |it| fewer(pairs(&it.trace)));
     drop(bytes);
     let read = recording.as_ref().ok().map(|recording| recording.reading.clone());
-    let pairs = |trace: &Trace| trace.times.iter().zip(&trace.values).map(|(t, v)| [*t, *v]).collect();
-    let raw = recording.as_ref().map_or(Vec::new(), |recording| fewer(pairs(&recording.trace)));
     let fit = recording
         .and_then(|recording| fitted(name, recording, asked, progress))
         .map_err(|it| refusal(&it, asked.light != Light::Auto));
@@ -135,8 +127,6 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         facts: facts(&fit),
         report: report::text(name, &fit),
         kind: fit.chosen.title(),
-        exposure_s: fit.exposure.value,
-        exposure_error_s: fit.exposure.error,
         nearest_s: speed::nearest(fit.exposure.value),
         pulses: fit.frames.count,
         pulse: fit.frames.fitted,
@@ -145,7 +135,7 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         explained: fit.test.explained,
         rms: fit.best().rms,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
-        warnings: fit.warnings.iter().map(warning).collect(),
+        warnings: fit.warnings.iter().map(Tell::message).collect(),
         samples: fewer(samples.collect()),
     })
 }
@@ -182,31 +172,13 @@ fn test(fit: &Fit) -> String {
 }
 
 /// Why there is no fit; was it said which way light moves the signal?
-fn refusal(refusal: &Refusal, has_way: bool) -> Told {
-    if has_way && matches!(refusal, Refusal::NoPulse { .. }) {
-        let text = "no pulse: nothing stands out of the noise this way; does light move the signal the other way?";
-        return Told { text: text.into(), mend: Some("light"), about: "" };
+fn refusal(refusal: &Refusal, has_way: bool) -> Message {
+    let told = refusal.message();
+    if !has_way || !matches!(refusal, Refusal::NoPulse { .. }) {
+        return told;
     }
-    told(refusal, "")
-}
-
-/// What is doubtful: the exposure, and so all, where nothing else is.
-fn warning(warning: &Warning) -> Told {
-    let about = match warning.code() {
-        code if code.starts_with("sync_") => "delay",
-        "noise" | "sharp_edges" => "times",
-        _ => "exposure",
-    };
-    told(warning, about)
-}
-
-fn told(it: &impl Tell, about: &'static str) -> Told {
-    let mend = match it.remedy() {
-        Some(Remedy::Columns(_)) => Some("signal"),
-        Some(Remedy::Mains | Remedy::Triggers | Remedy::Picture) | None => None,
-        Some(other) => Some(other.option()),
-    };
-    Told { text: it.to_string(), mend, about }
+    let text = "no pulse: nothing stands out of the noise this way; does light move the signal the other way?";
+    Message { text: text.into(), remedy: Some("light"), ..told }
 }
 
 /// Of many samples the least and the greatest of neighbours.
@@ -227,6 +199,7 @@ fn fewer<const N: usize>(samples: Vec<[f64; N]>) -> Vec<[f64; N]> {
 
 #[cfg(test)]
 mod tests {
+    use shutter_fit::trace::Warning;
     use strum::IntoEnumIterator;
 
     use super::*;
@@ -234,7 +207,7 @@ mod tests {
     #[test]
     fn no_message_names_an_argument_of_the_program() {
         let (refusals, warnings) = (Refusal::iter(), Warning::iter());
-        let all = refusals.map(|it| refusal(&it, true)).chain(warnings.map(|it| warning(&it)));
-        all.for_each(|Told { text, .. }| assert!(!text.contains("--"), "{text}"));
+        let all = refusals.map(|it| refusal(&it, true)).chain(warnings.map(|it| it.message()));
+        all.for_each(|Message { text, .. }| assert!(!text.contains("--"), "{text}"));
     }
 }

@@ -5,7 +5,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import {
-  ROOT, bouncing, copied, facts, fill, measure, open, page, problem, scratch, setUp, shutter, sine, synced, trace,
+  ROOT, bouncing, copied, drop, facts, fill, measure, open, page, problem, scratch, setUp, shutter, sine, synced, trace,
 } from './harness.js';
 
 setUp();
@@ -73,6 +73,19 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
   }
   console.log(`${100 - refused} of 100 scenes planned, ${refused} refused by both`);
   assert.ok(refused < 40, String(refused));
+});
+
+test('a shutter that never opened fully has the exposure and the speed that it has by the program', async () => {
+  await open();
+  const fit = readFileSync(join(ROOT, 'cli', 'scenes', 'measured.toml'), 'utf8');
+  const low = fit.replace('[shutter.measured]', 'nominal = 4\n\n$&\npeak = 0.5'), file = join(scratch, 'low.toml');
+  writeFileSync(file, low);
+  await drop(['low.toml', low]);
+  await page.until(() => document.getElementById('name').value === 'low');
+  const program = shutter('plan', file);
+  for (const line of [/^exposure +(TV 3\.\S+ ms)/m, /ΔEV -(\S+)/]) {
+    assert.ok((await facts()).includes(line.exec(program)[1]), String(line));
+  }
 });
 
 // Straight and soft ramps, fast and slow, noisy, with several pulses, light that is lost, a bounce.

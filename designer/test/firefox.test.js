@@ -7,7 +7,7 @@ import { ROOT, curve, drag, open, page, preset, ready, setUp, settled, values } 
 
 setUp('firefox');
 
-test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload keeps the steps', async () => {
+test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload keeps the scene', async () => {
   await open(undefined, { width: 1280, height: 1500 });
   const first = await values();
   await settled();
@@ -16,7 +16,7 @@ test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload 
   // As `shutter fit` has it: see the README.
   await page.says('6.2541 ± 0.0015 ms');
   await settled();
-  const [fitted, drawn] = [await values(), await curve()];
+  const fitted = await values();
   await drag('open_end', 30, -10);
   await page.says('Changed by hand since the fit');
   await page.mouse.up();
@@ -24,12 +24,15 @@ test('in Firefox a trace is fitted, a handle dragged, and both undone; a reload 
   await page.press('Control+z');
   assert.deepEqual(await values(), fitted);
   await settled();
+  await page.press('Control+z');
+  assert.deepEqual(await values(), first);
   await preset('box');
   await settled();
+  const box = await curve();
   await page.reload();
   await ready();
+  assert.equal(await curve(), box);
   await page.goBack();
-  await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, drawn);
-  await page.press('Control+z');
+  await page.until((d) => document.querySelector('path.curve').getAttribute('d') !== d, box);
   assert.deepEqual(await values(), first);
 });

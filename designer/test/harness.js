@@ -58,7 +58,7 @@ export function setUp(name = 'chrome') {
 export const SOFT = '#name=soft&unit=ms&times=0,2.5,7.5,10&inner=0.1,0,0.15,1,0.85,1,0.9,0'
   + '&triggers=12&timer_hz=1000000&min_gap=0.4&set_up=emulated';
 
-/** Opens the page. Tall, so that all panels are seen, and written. */
+/** Opens the page. */
 export async function open(hash = SOFT, size = { width: 1360, height: 2800 }) {
   if (page && !page.isClosed()) await page.close();
   page = extend(await browser.newPage());
@@ -88,7 +88,7 @@ export const told = () => page.until(() => {
 });
 
 /** What is told of what is on the screen, and what is wrong with it. */
-export const facts = async () => (await told(), (await page.text('#facts')).replaceAll('\u00a0', ' '));
+export const facts = async () => (await told(), page.text('#facts'));
 export const problem = async () => (await told(), page.text('#problem'));
 
 /** Until the form of what is on the screen is written. */
@@ -134,8 +134,7 @@ export function extend(page) {
     }, value),
     until: (what, ...args) => page.waitForFunction(what, {}, ...args),
     /** Until the page says so. */
-    says: (words) => page.waitForFunction((words) =>
-      document.body.innerText.replaceAll('\u00a0', ' ').includes(words), {}, words),
+    says: (words) => page.until((words) => document.body.innerText.includes(words), words),
     press: async (keys) => {
       const all = keys.split('+');
       for (const key of all.slice(0, -1)) await page.keyboard.down(key);
@@ -249,6 +248,23 @@ export async function measure(name, text) {
 /** Types in fields, one after the other. */
 export async function fill(values) {
   for (const [id, value] of Object.entries(values)) await page.fill(`#${id}`, value);
+}
+
+/**
+ * What is seen: `facts`, what is the `problem`, the value of a field by its id, what an element says by its selector;
+ * behind `!` what is not, or whether an element is seen.
+ */
+export async function see(wanted) {
+  for (const [key, is] of Object.entries(wanted)) {
+    const [, not, what] = /^(!?)(.*)$/.exec(key), isElement = /^[#.[]/.test(what);
+    if (typeof is === 'boolean') assert.equal(await page.isSeen(what), is, what);
+    else {
+      const all = { facts, problem }, ask = all[what] ?? (() => isElement ? page.text(what) : page.value(`#${what}`));
+      const text = await ask();
+      if (typeof is === 'string') assert.equal(text, is, what);
+      else assert[not ? 'doesNotMatch' : 'match'](text, is, what);
+    }
+  }
 }
 
 /** A trace: it opens in `up`, is open for `open`, closes in `down`, in ms; with noise, and what `more` adds. */
