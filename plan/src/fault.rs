@@ -133,7 +133,10 @@ pub enum What {
     Inner { error: CurveError, number: f64 },
     #[error("it is beyond f32 (3.4e38 s)")]
     Beyond,
-    #[error("f32 is off by {} % of the interval here; count the times from nearer to `open_start`", short(*.percent, 2))]
+    #[error(
+        "f32 is off by {} % of the interval here; count the times from nearer to `open_start`",
+        short(*.percent, 2)
+    )]
     Lost { percent: f64 },
     #[error("a finite number is required")]
     Finite,
@@ -227,7 +230,9 @@ pub enum What {
     TimesCount(usize),
     #[error("trigger {i} comes before `open_start`, from where ticks count")]
     TimesEarly { i: usize },
-    #[error("trigger {i} comes more than 2^31 ticks after `open_start`; count from nearer to it, or take a slower timer")]
+    #[error(
+        "trigger {i} comes more than 2^31 ticks after `open_start`; count from nearer to it, or take a slower timer"
+    )]
     TimesLate { i: usize },
     #[error("trigger {} comes before trigger {i}", i + 1)]
     TimesOutOfOrder { i: usize },
