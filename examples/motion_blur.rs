@@ -1,14 +1,8 @@
 //! Motion blur as a renderer samples it: a bright edge moves across a picture while a soft shutter is open. Each pixel
 //! takes its samples at `inverse_cdf` of stratified fractions, and they all count the same.
 //!
-//! `cargo run --example motion_blur`, or with `-- FILE.svg`, draws that beside the exact integral, and beside samples
-//! at equally spaced times, which give another shutter's blur. A file that exists is left as it is.
-
-use std::fmt::Write;
-use std::fs::{File, create_dir_all};
-use std::io::{self, Write as _};
-use std::path::Path;
-use std::process::ExitCode;
+//! `cargo run --example motion_blur >blur.svg` draws that beside the exact integral, and beside samples at equally
+//! spaced times, which give another shutter's blur.
 
 use shutter_curve::{CubicBezier, ShutterCurve, expect};
 
@@ -38,54 +32,32 @@ fn sampled(pixel: usize, n: u32, time: impl Fn(f32) -> f32) -> f32 {
 }
 
 /// A row of pixels, and its name.
-fn draw(svg: &mut String, row: usize, name: &str, light: impl Fn(usize) -> f32) {
+fn draw(row: usize, name: &str, light: impl Fn(usize) -> f32) {
     let top = 70 * row;
-    let _ = writeln!(svg, "<text x=\"10\" y=\"{}\">{name}</text>", top + 20);
+    println!("<text x=\"10\" y=\"{}\">{name}</text>", top + 20);
     for pixel in 0..PIXELS {
         // As screens have it.
         let grey = (255.0 * light(pixel).powf(1.0 / 2.2)) as u8;
         let (x, y) = (10 + 2 * pixel, top + 28);
-        let fill = format!("rgb({grey},{grey},{grey})");
-        let _ = writeln!(svg, "<rect x=\"{x}\" y=\"{y}\" width=\"2\" height=\"36\" fill=\"{fill}\"/>");
+        println!("<rect x=\"{x}\" y=\"{y}\" width=\"2\" height=\"36\" fill=\"rgb({grey},{grey},{grey})\"/>");
     }
 }
 
-fn main() -> ExitCode {
-    let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"220\" font-family=\"sans-serif\" \
-         font-size=\"14\" shape-rendering=\"crispEdges\">\n<rect width=\"660\" height=\"220\" fill=\"white\"/>\n",
-    );
-    draw(&mut svg, 0, "exact", exact);
-    let name = format!("{SAMPLES} samples a pixel, at inverse_cdf");
-    draw(&mut svg, 1, &name, |pixel| sampled(pixel, SAMPLES, |u| SHUTTER.inverse_cdf(u)));
-    let name = format!("{SAMPLES} samples a pixel, at equally spaced times");
-    draw(&mut svg, 2, &name, |pixel| sampled(pixel, SAMPLES, |u| u));
-    svg.push_str("</svg>\n");
-
-    println!("samples  largest error at inverse_cdf  at equally spaced times");
+fn main() {
+    eprintln!("samples  largest error at inverse_cdf  at equally spaced times");
     for n in [4, 16, 64, 256] {
         let worst =
             |time: fn(f32) -> f32| (0..PIXELS).map(|p| (sampled(p, n, time) - exact(p)).abs()).fold(0.0, f32::max);
-        println!("{n:7} {:29.4} {:24.4}", worst(|u| SHUTTER.inverse_cdf(u)), worst(|u| u));
+        eprintln!("{n:7} {:29.4} {:24.4}", worst(|u| SHUTTER.inverse_cdf(u)), worst(|u| u));
     }
-    let asked = std::env::args().nth(1);
-    let path = asked.as_deref().unwrap_or("target/motion_blur.svg");
-    match written(path, &svg) {
-        Ok(()) => {
-            println!("wrote {path}");
-            ExitCode::SUCCESS
-        }
-        Err(error) => {
-            eprintln!("{path}: {error}; name another file behind --");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-/// Only where there is no such file.
-fn written(path: &str, text: &str) -> io::Result<()> {
-    if let Some(folder) = Path::new(path).parent() {
-        create_dir_all(folder)?;
-    }
-    File::create_new(path)?.write_all(text.as_bytes())
+    println!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"220\" font-family=\"sans-serif\" \
+         font-size=\"14\" shape-rendering=\"crispEdges\">\n<rect width=\"660\" height=\"220\" fill=\"white\"/>"
+    );
+    draw(0, "exact", exact);
+    let name = format!("{SAMPLES} samples a pixel, at inverse_cdf");
+    draw(1, &name, |pixel| sampled(pixel, SAMPLES, |u| SHUTTER.inverse_cdf(u)));
+    let name = format!("{SAMPLES} samples a pixel, at equally spaced times");
+    draw(2, &name, |pixel| sampled(pixel, SAMPLES, |u| u));
+    println!("</svg>");
 }

@@ -26,6 +26,6 @@ fn main() {
     eprintln!(
         "This is firmware for a Cortex-M4F. Type this to run it in QEMU; what it needs is fetched into a cache:\n\n    \
          .ci/thumb.sh cargo trigger\n\n\
-         On this machine run another example: density, trapezoid or motion_blur."
+         On this machine run another example: density or motion_blur."
     );
 }
