@@ -200,14 +200,13 @@ fn fewer<const N: usize>(samples: Vec<[f64; N]>) -> Vec<[f64; N]> {
 #[cfg(test)]
 mod tests {
     use shutter_fit::trace::Warning;
-    use strum::IntoEnumIterator;
 
     use super::*;
 
     #[test]
     fn no_message_names_an_argument_of_the_program() {
-        let (refusals, warnings) = (Refusal::iter(), Warning::iter());
-        let all = refusals.map(|it| refusal(&it, true)).chain(warnings.map(|it| it.message()));
+        let (refusals, warnings) = (Refusal::each(), Warning::each());
+        let all = refusals.iter().map(|it| refusal(it, true)).chain(warnings.iter().map(Tell::message));
         all.for_each(|Message { text, .. }| assert!(!text.contains("--"), "{text}"));
     }
 }

@@ -10,7 +10,6 @@ use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit, report};
 use shutter_plan::fitted::{self, Zero};
 use shutter_plan::plan::Plan;
 use shutter_plan::scene;
-use strum::IntoEnumIterator;
 
 use crate::generator::{Case, Random, Recorder, Truth, each};
 use crate::scenes::MEASURED;
@@ -631,8 +630,7 @@ fn tails_are_looked_at_to_their_end() {
 #[test]
 fn what_mends_is_an_option_of_the_program() {
     let help = Folder::new("mends").run("fit --help").quietly();
-    let refusals: Vec<_> = Refusal::iter().collect();
-    let warnings: Vec<_> = Warning::iter().collect();
+    let (refusals, warnings) = (Refusal::each(), Warning::each());
     let remedies = refusals.iter().filter_map(Tell::remedy).chain(warnings.iter().filter_map(Tell::remedy));
     for option in remedies.map(|it| it.option()) {
         assert!(help.contains(&format!(" --{option} ")), "{option}");

@@ -21,11 +21,18 @@ macro_rules! messages {
     )*) => {
         $(#[$of])*
         #[derive(Clone, Debug, PartialEq, Serialize)]
-        #[cfg_attr(feature = "strum", derive(strum::EnumIter))]
         #[expect(missing_docs, reason = "a message tells what its values are")]
         #[non_exhaustive]
         #[serde(rename_all = "snake_case")]
         pub enum $Name { $($(#[$about])* $Variant $({ $($value: $Type),* })?,)* }
+
+        impl $Name {
+            /// Each message once, with empty values: for tests.
+            #[doc(hidden)]
+            pub fn each() -> Vec<Self> {
+                vec![$(Self::$Variant $({ $($value: Default::default()),* })?,)*]
+            }
+        }
 
         impl std::error::Error for $Name {}
 

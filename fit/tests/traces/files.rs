@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 
 use shutter_fit::trace::{self, Column, Recording, Warning, open};
 use shutter_fit::{Fit, Kind, Options, Sync, fit};
-use strum::IntoEnumIterator;
 
 use crate::exports::{judge, rows};
 use crate::generator::{Random, asked, each};
@@ -17,7 +16,8 @@ fn the_codes_of_warnings_are_the_documented_ones() {
     let (_, list) = pages.split_once("\n## Warnings\n").unwrap();
     let before_colons = list.lines().filter_map(|line| line.strip_prefix("- ")?.split_once(':'));
     let codes = before_colons.flat_map(|(codes, _)| codes.split(", ").map(|it| it.trim_matches('`')));
-    let told = Warning::iter().map(|warning| warning.code());
+    let told = Warning::each();
+    let told = told.iter().map(|warning| warning.code());
     assert_eq!(codes.collect::<BTreeSet<_>>(), told.collect());
 }
 
