@@ -232,19 +232,23 @@ impl Plan {
         self.triggers.iter().filter_map(|trigger| trigger.pulse)
     }
 
-    /// The light of each flash, the greatest being 1; without a curve, all are alike.
+    /// The light that comes of each flash, as a part of what it sends; of pulses with a duty, as a part of the most that
+    /// comes of one.
     pub fn doses(&self, set_up: SetUp) -> Vec<f64> {
-        let Some(Curve { shutter: curve, .. }) = &self.curve else { return vec![1.0; self.triggers.len()] };
-        let time = |ticks| (f64::from(curve.open_start()) + self.seconds(ticks)) as f32;
-        let dose = |trigger: &Trigger| match (set_up, trigger.pulse) {
-            (SetUp::Emulated, None) => 1.0,
-            (SetUp::Emulated, Some((on, off))) => f64::from(off - on),
-            (SetUp::InPath, None) => f64::from(curve.openness(time(trigger.ticks))),
-            (SetUp::InPath, Some((on, off))) => f64::from(curve.cdf(time(off))) - f64::from(curve.cdf(time(on))),
+        let (Some(curve), SetUp::InPath) = (&self.curve, set_up) else { return vec![1.0; self.triggers.len()] };
+        let shutter = &curve.shutter;
+        let time = |ticks| (f64::from(shutter.open_start()) + self.seconds(ticks)) as f32;
+        let came = |trigger: &Trigger| match trigger.pulse {
+            None => f64::from(shutter.openness(time(trigger.ticks))) * curve.peak,
+            Some((on, off)) => f64::from(shutter.cdf(time(off))) - f64::from(shutter.cdf(time(on))),
         };
-        let doses: Vec<f64> = self.triggers.iter().map(dose).collect();
-        let most = doses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        doses.iter().map(|dose| dose / most).collect()
+        let doses: Vec<f64> = self.triggers.iter().map(came).collect();
+        let whole = match self.lamp {
+            Lamp::Triggered | Lamp::FullyOpen => 1.0,
+            Lamp::Equal { ticks } => self.seconds(ticks) / f64::from(curve.exposure()),
+            Lamp::Doses { .. } => doses.iter().copied().fold(f64::MIN_POSITIVE, f64::max),
+        };
+        doses.iter().map(|dose| (dose / whole).min(1.0)).collect()
     }
 
     /// From the edge of the sync, or the start of opening where there is no delay, to the end of a frame, in seconds.
