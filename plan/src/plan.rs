@@ -232,8 +232,8 @@ impl Plan {
         self.triggers.iter().filter_map(|trigger| trigger.pulse)
     }
 
-    /// The light that comes of each flash, as a part of what it sends; of pulses with a duty, as a part of the most that
-    /// comes of one.
+    /// The light that comes of each flash, as a part of what it sends; of a pulse with a duty, as a part of the most
+    /// that comes of one.
     pub fn doses(&self, set_up: SetUp) -> Vec<f64> {
         let (Some(curve), SetUp::InPath) = (&self.curve, set_up) else { return vec![1.0; self.triggers.len()] };
         let shutter = &curve.shutter;
