@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the curve designer into designer/dist, plain files for any web server: `shutter design` serves them here.
+# Builds the curve designer into designer/dist, plain files for any web server; `--serve` serves them here.
 #
 # It needs Rust with the target wasm32-unknown-unknown, and adds it by rustup where it is missing.
 set -euo pipefail
@@ -59,3 +59,4 @@ mv $files dist.new/"$version"
 rm -rf dist
 mv dist.new dist
 echo "designer: built designer/dist" >&2
+if [ "${1:-}" = --serve ]; then exec npx esbuild --servedir=dist --serve=127.0.0.1:8417; fi

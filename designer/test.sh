@@ -16,7 +16,7 @@ browser() {
 CHROMIUM=$(browser chromium chromium-browser google-chrome)
 FIREFOX=$(browser firefox-esr firefox)
 ./build.sh
-echo "designer: building the program that serves the page, half a minute the first time ..." >&2
+echo "designer: building the program that the page agrees with, half a minute the first time ..." >&2
 cargo build --quiet --package shutter-curve-cli
 target=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
 export CHROMIUM FIREFOX SHUTTER="$target/debug/shutter"

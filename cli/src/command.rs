@@ -2,7 +2,6 @@
 //!
 //! Whatever goes wrong is told on standard error with exit code 2, and no file is written then.
 
-mod design;
 mod fit;
 mod fit_many;
 mod input;
@@ -34,7 +33,6 @@ struct Args {
 #[derive(Subcommand)]
 enum Command {
     Plan(Box<plan::Args>),
-    Design(design::Args),
     Fit(Box<fit::Args>),
 }
 
@@ -54,7 +52,6 @@ pub fn run(args: impl IntoIterator<Item = OsString>, out: &mut dyn Write, err: &
     };
     let ended = match args.command.unwrap_or_else(|| Command::Plan(Box::default())) {
         Command::Plan(args) => plan::run(&args, out, err),
-        Command::Design(args) => design::run(&args, out),
         Command::Fit(args) => fit::run(&args, out, err),
     };
     match ended {

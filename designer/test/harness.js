@@ -1,12 +1,13 @@
 // The page in a real browser, by one driver; and the program `shutter` beside it. Run by designer/test.sh.
 
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
+import { execFileSync } from 'node:child_process';
 import { once } from 'node:events';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, afterEach, before } from 'node:test';
+import { context } from 'esbuild';
 import { launch } from 'puppeteer-core';
 
 export const ROOT = join(import.meta.dirname, '..', '..');
@@ -14,7 +15,8 @@ export const SCENES = join(ROOT, 'cli', 'scenes');
 export const scratch = mkdtempSync(join(tmpdir(), 'designer-'));
 const SHUTTER = process.env.SHUTTER;
 
-export let server, url, browser, page;
+export let url, browser, page;
+let server;
 /** What went wrong in the page, and what it asked of whom. */
 export let complaints, requests;
 export const forgive = () => (complaints.length = 0);
@@ -32,17 +34,16 @@ const BROWSERS = {
 /** Begins with a server and a browser. No test leaves an error on the console, nor a request to anyone else. */
 export function setUp(name = 'chrome') {
   before(async () => {
-    const args = ['design', '--no-open', '--port', '0', '--page', join(ROOT, 'designer', 'dist')];
-    server = spawn(SHUTTER, args, { stdio: ['ignore', 'pipe', 'inherit'] });
-    const [told] = await once(server.stdout, 'data');
-    url = String(told).match(/http:\S+/)[0];
+    server = await context({});
+    const { port } = await server.serve({ host: '127.0.0.1', servedir: join(ROOT, 'designer', 'dist') });
+    url = `http://127.0.0.1:${port}/`;
     browser = await launch({ browser: name, headless: true, timeout: 120_000, ...BROWSERS[name] });
     const clipboard = ['read', 'write', 'sanitized-write'].map((it) => `clipboard-${it}`);
     if (name === 'chrome') await browser.defaultBrowserContext().overridePermissions(url.slice(0, -1), clipboard);
   });
   after(async () => {
     await browser?.close();
-    server?.kill();
+    await server?.dispose();
     rmSync(scratch, { recursive: true, force: true });
   });
   afterEach(async () => {
