@@ -1,33 +1,38 @@
 //! The plan as an SVG: openness over time in shares of equal exposure, and below it their sum.
 
 mod drawing;
-mod set_ups;
-mod times;
 mod trace;
 
 use std::error::Error;
+use std::iter::once;
+use std::ops::Range;
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Area, Drawn, GREY, Graph, INK, SCALE, SHARES, pen};
-use shutter_fit::unit::{count, short};
+use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, INK, SCALE, SHARES, axes, pen};
+use shutter_curve::ShutterCurve;
+use shutter_fit::unit::{count, decimals, short, trimmed};
 
 use crate::report::axis;
-use drawing::{Key, MOST_MARKS, POINTS, below, draw_curve, draw_marks, graph, is_near, knob, lit, page, time_range};
-pub use set_ups::set_ups;
-use shutter_plan::lamp::{FullyOpen, Lamp};
+use drawing::{Key, MOST_MARKS, draw_marks, knob, lit, page};
+use shutter_plan::lamp::{FullyOpen, Lamp, SetUp};
 use shutter_plan::plan::{Curve, Plan};
 pub use trace::trace;
 
 const SIZE: (i32, i32) = (900, 704);
 const OPENNESS: i32 = 330;
-
+/// The points along a curve, or along all shares of it.
+const POINTS: usize = 800;
 /// The height of the ticks that stand for so many.
 const TICK: f64 = 0.04;
 
 /// The plan of the scene `name`, as an SVG.
 pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
-    let Some(curve) = &plan.curve else { return times::svg(name, plan) };
+    let Some(curve) = &plan.curve else {
+        return Err("it is of a curve, and the scene has none; `shutter fit --picture` draws the trace with its \
+                    triggers"
+            .into());
+    };
     let title = format!("Openness and exposure of the shutter {name} over time, with its triggers");
     let facts = format!(
         "exposure {}, efficiency {} %, {}",
@@ -74,13 +79,12 @@ fn draw_openness(area: &Area, plan: &Plan, Curve { shape, shutter: curve, .. }: 
     };
     let share = |i: usize| Polygon::new(below(edge(i), edge(i + 1), POINTS / n + 2, at), SHARES[i % 2]);
     graph.draw_series((0..n).map(share))?;
-    graph.draw_series(pulses(plan).map(|(on, off)| match plan.lamp {
-        Lamp::Doses { .. } => Polygon::new(below(on, off, 16, at), lit()),
-        _ => {
-            let (on, off) = (time(on), time(off));
-            Polygon::new(vec![(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], lit())
-        }
-    }))?;
+    // Of a shutter in the light's path, the light that it lets through.
+    let is_dimmed = matches!(plan.lamp, Lamp::Doses { .. }) || plan.scene.flashes.set_up == Some(SetUp::InPath);
+    let lamp = |t: f32| if is_dimmed { at(t) } else { (time(t), 1.0) };
+    let seconds = |ticks| (plan.start + plan.seconds(ticks)) as f32;
+    graph
+        .draw_series(plan.pulses().map(|(on, off)| Polygon::new(below(seconds(on), seconds(off), 16, lamp), lit())))?;
     draw_curve(&mut graph, plan, curve, |t| curve.openness(t))?;
     draw_sync(&mut graph, plan)?;
     let marks = plan.triggers.iter().map(|trigger| at(trigger.time as f32));
@@ -132,10 +136,51 @@ fn draw_cdf(area: &Area, plan: &Plan, Curve { shutter: curve, .. }: &Curve) -> D
     draw_triggers(&mut graph, marks, |(t, u)| vec![(left, u), (t, u), (t, 0.0)])
 }
 
-/// When the lamp is on, in seconds.
-fn pulses(plan: &Plan) -> impl Iterator<Item = (f32, f32)> {
-    let time = |ticks| (plan.start + plan.seconds(ticks)) as f32;
-    plan.pulses().map(move |(on, off)| (time(on), time(off)))
+/// What lies below the function `at` of time between two times.
+fn below(from: f32, to: f32, points: usize, at: impl Fn(f32) -> (f64, f64)) -> Vec<(f64, f64)> {
+    let ends = [from, to].map(|t| (at(t).0, 0.0));
+    once(ends[0]).chain(steps(from, to, points).map(at)).chain(once(ends[1])).collect()
+}
+
+/// So many steps from `from` to `to`, both ends included.
+fn steps(from: f32, to: f32, n: usize) -> impl Iterator<Item = f32> {
+    (0..=n).map(move |i| from + (to - from) * (i as f32 / n as f32))
+}
+
+/// From just before to just after the curve, so that a jump at an end is drawn.
+fn draw_curve(graph: &mut Graph, plan: &Plan, curve: &ShutterCurve, f: impl Fn(f32) -> f32) -> Drawn {
+    let (start, end, zero) = (curve.open_start(), curve.close_end(), plan.origin());
+    let times = once(start.next_down()).chain(steps(start, end, POINTS)).chain(once(end.next_up()));
+    let line = times.map(|t| (plan.unit.of(f64::from(t) - zero), f64::from(f(t))));
+    graph.draw_series(LineSeries::new(line, pen(BLUE, 2.5)))?;
+    Ok(())
+}
+
+/// An empty graph over the time of the plan.
+fn graph<'a, 'b>(
+    area: &'a Area<'b>,
+    plan: &Plan,
+    y: &str,
+    x: Option<&str>,
+    range: Range<f64>,
+) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
+    let places = decimals(plan.unit.of(plan.length), 3);
+    let time = Axis { range: time_range(plan), name: x, labels: 11, label: &|t| trimmed(*t, places) };
+    axes(area, time, Axis { range, name: Some(y), labels: 6, label: &|y| format!("{y:.1}") }, 60)
+}
+
+/// The axis of time: the interval, and a little room on either side. It begins or ends with the edge of the camera's
+/// sync, where that is near.
+fn time_range(plan: &Plan) -> Range<f64> {
+    let [start, end] = [plan.start, plan.start + plan.length].map(|time| plan.unit.of(time - plan.origin()));
+    let (start, end) = if is_near(plan) { (start.min(0.0), end.max(0.0)) } else { (start, end) };
+    let room = 0.03 * (end - start);
+    start - room..end + room
+}
+
+/// Can the edge of the sync, at 0, be on the axis without squeezing the curve?
+fn is_near(plan: &Plan) -> bool {
+    plan.sync.delay.is_some_and(|delay| delay.seconds.abs() <= 1.5 * plan.length)
 }
 
 /// A line to each mark and a dot on it; ticks at the bottom where there are too many.

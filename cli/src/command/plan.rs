@@ -1,6 +1,5 @@
 //! `shutter plan`: scene files in, checked lists of trigger times out, with a picture of one.
 
-use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -31,9 +30,6 @@ pub struct Args {
     /// Write the picture to this file
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     out: Option<PathBuf>,
-    /// Write a picture of both set-ups to this file: the curve emulated, and the shutter in the light's path
-    #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
-    set_ups: Option<PathBuf>,
     /// Print the plan in this form, and no report
     #[arg(long, value_name = "FORM")]
     emit: Option<Form>,
@@ -51,16 +47,14 @@ pub struct Args {
     name: Option<String>,
 }
 
-type Draw = fn(&str, &Plan) -> Result<String, Box<dyn Error>>;
-
 pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
-    let Args { scenes, out: picture, set_ups, emit: form, to, .. } = args;
-    if scenes.len() > 1 && (picture.is_some() || set_ups.is_some()) {
+    let Args { scenes, out: picture, emit: form, to, .. } = args;
+    if scenes.len() > 1 && picture.is_some() {
         return Err("a picture is of one scene".into());
     }
     let inputs: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
     let printed = form.filter(|_| to.is_none()).map(|_| Path::new("-"));
-    let files = [picture, set_ups, to].into_iter().flatten().map(PathBuf::as_path);
+    let files = [picture, to].into_iter().flatten().map(PathBuf::as_path);
     let files: Vec<&Path> = files.chain(printed).collect();
     let mut outputs = Outputs::new(&inputs, &files, args.force)?;
     let plans = match scenes.as_slice() {
@@ -82,12 +76,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {
             let name = args.name.as_ref().unwrap_or(name);
-            let pictures: [(_, Draw); 2] = [(picture, picture::svg), (set_ups, picture::set_ups)];
-            for (file, draw) in pictures {
-                if let Some(file) = file {
-                    let svg = draw(name, plan).map_err(|e| format!("the picture: {e}"))?;
-                    outputs.add(file, Some(mark::SVG), svg)?;
-                }
+            if let Some(file) = picture {
+                let svg = picture::svg(name, plan).map_err(|e| format!("the picture: {e}"))?;
+                outputs.add(file, Some(mark::SVG), svg)?;
             }
             match form {
                 Some(form) => emit::emit(*form, name, plan, args.curve)

@@ -57,11 +57,10 @@ fn two_outputs_of_one_file_are_refused() {
     folder.write("old.svg", "old");
     fs::hard_link(folder.path("old.svg"), folder.path("hard.svg")).unwrap();
     folder.refuses(&[
-        ("plan --out new.svg --set-ups new.svg", "two outputs"),
-        ("plan --out new.svg --set-ups sub/../new.svg", "two outputs"),
-        ("plan --out new.svg --set-ups link.svg", "two outputs"),
-        ("plan --force --out old.svg --set-ups hard.svg", "two outputs"),
         ("plan --out new.svg --emit c --to new.svg", "two outputs"),
+        ("plan --out new.svg --emit c --to sub/../new.svg", "two outputs"),
+        ("plan --out new.svg --emit c --to link.svg", "two outputs"),
+        ("plan --force --out old.svg --emit c --to hard.svg", "two outputs"),
         ("fit trace.csv --out new.svg --picture new.svg", "two outputs"),
         ("fit trace.csv sub/trace.csv --out .", "two outputs"),
         ("plan --out - --emit c --to -", "standard output"),
@@ -122,7 +121,7 @@ fn a_file_of_something_else_needs_force() {
     folder.write("old.h", "/* Checksum bf9cf968 of the lines below: `shutter` replaces them while it holds */\nfoobar");
     folder.run("plan --emit c --to old.h").well();
     for _ in 0..2 {
-        folder.run("plan --out made.svg --set-ups both.svg").well();
+        folder.run("plan --out made.svg").well();
     }
     folder.run("fit trace.csv --picture made.svg").well();
     folder.write("made.svg", folder.text("made.svg").replace("<svg ", "<svg  "));
@@ -167,10 +166,10 @@ fn links_are_written_through_and_other_names_keep_what_they_had() {
     fs::set_permissions(folder.path("far/new.svg"), PermissionsExt::from_mode(0o604)).unwrap();
     fs::hard_link(folder.path("far/new.svg"), folder.path("other.svg")).unwrap();
     let older = folder.text("other.svg");
-    let plan = "$shutter plan --triggers 3 --out link.svg --set-ups fresh.svg --force";
+    let plan = "$shutter plan --triggers 3 --out link.svg --emit c --to fresh.h --force";
     folder.shell(&format!("umask 027; {plan}")).well();
     let mode = |name: &str| fs::metadata(folder.path(name)).unwrap().permissions().mode() & 0o777;
-    assert_eq!((mode("far/new.svg"), mode("fresh.svg")), (0o604, 0o640));
+    assert_eq!((mode("far/new.svg"), mode("fresh.h")), (0o604, 0o640));
     assert!(folder.text("far/new.svg") != older && folder.text("other.svg") == older);
     assert!(folder.path("link.svg").is_symlink());
     symlink("round.svg", folder.path("round.svg")).unwrap();
@@ -180,7 +179,7 @@ fn links_are_written_through_and_other_names_keep_what_they_had() {
 #[test]
 fn devices_and_pipes_are_written_to() {
     let folder = folder("streams");
-    folder.run("plan --out /dev/null --set-ups /dev/null").well();
+    folder.run("plan --out /dev/null --emit c --to /dev/null").well();
     let csv = folder.run("plan --emit csv").well().out;
     assert_eq!(folder.run("plan --emit csv --to /dev/stdout").out, csv);
     let piped = "mkfifo pipe.svg; cat pipe.svg & $shutter plan --out pipe.svg > text; wait";
@@ -211,8 +210,8 @@ fn devices_and_pipes_are_written_to() {
 #[test]
 fn a_full_disk_and_a_kill_leave_the_old_files() {
     let folder = folder("full");
-    folder.run("plan --out a.svg --set-ups b.svg --emit c --to c.h").well();
-    let line = "plan scene.toml --out a.svg --set-ups b.svg --emit c --to c.h --force";
+    folder.run("plan --out a.svg --emit c --to c.h").well();
+    let line = "plan scene.toml --out a.svg --emit c --to c.h --force";
     let limited = |first, blocks| folder.shell(&format!("{first}; ulimit -f {blocks}; exec \"$shutter\" {line}"));
     let (before, mut stopped) = (folder.all(), 0);
     loop {
@@ -278,8 +277,8 @@ fn what_cannot_be_written_leaves_nothing() {
     folder.write("leaf.h", "/* old */\n");
     folder.write("bare.toml", with(TRAPEZOID, ""));
     folder.refuses(&[
-        ("plan --set-ups ok.svg --out taken.svg", "it is a folder"),
-        ("plan --set-ups ok.svg --out none/new.svg", "its folder is not there"),
+        ("plan --emit c --to ok.h --out taken.svg", "it is a folder"),
+        ("plan --emit c --to ok.h --out none/new.svg", "its folder is not there"),
         ("fit trace.csv --picture ok.svg --out none/leaf.toml", "its folder is not there"),
         // A failed plan, and a form for which the scene lacks something.
         ("plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers"),
@@ -293,7 +292,7 @@ fn what_cannot_be_written_leaves_nothing() {
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o555)).unwrap();
     // Root may write there.
     if File::create(locked.join("probe")).is_err() {
-        folder.refuses(&[("plan --set-ups ok.svg --out locked/new.svg", "permission denied")]);
+        folder.refuses(&[("plan --emit c --to ok.h --out locked/new.svg", "permission denied")]);
     }
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
 }

@@ -1,5 +1,6 @@
 //! `shutter plan`: every scene that ships is planned, and a file that is wrong leaves nothing behind.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, ErrorKind, Write};
 
@@ -17,18 +18,16 @@ fn every_scene_that_ships_is_planned_and_drawn() {
     for (name, _) in scenes() {
         let folder = Folder::new("scenes");
         fs::copy(path(&name), folder.path("a.toml")).unwrap();
-        let run = folder.run("plan a.toml --out a.svg --set-ups both.svg");
-        assert_eq!(run.err, "wrote a.svg\nwrote both.svg\n", "{name}");
+        let run = folder.run("plan a.toml --out a.svg");
+        assert_eq!(run.err, "wrote a.svg\n", "{name}");
         assert!(run.out.lines().all(|line| line.chars().count() <= 80));
         let run = run.prints(&["exposure ", "efficiency "]);
-        let [picture, set_ups] = ["a.svg", "both.svg"].map(|file| folder.text(file));
-        for svg in [&picture, &set_ups] {
-            assert!(svg.contains("\n<svg ") && svg.ends_with("</svg>\n"));
-        }
+        let picture = folder.text("a.svg");
+        assert!(picture.contains("\n<svg ") && picture.ends_with("</svg>\n"));
         for words in ["openness", "fraction of the exposure", "time"] {
             assert!(picture.contains(words), "{words}");
         }
-        assert_eq!(folder.names(), ["a.svg", "a.toml", "both.svg"], "nothing but the pictures");
+        assert_eq!(folder.names(), ["a.svg", "a.toml"], "nothing but the picture");
         // A gap is the difference of the times that are printed.
         for pair in table(&run.out).windows(2).filter(|pair| pair.iter().all(|row| row[0] != "...")) {
             let number = |text: &str| text.parse::<f64>().unwrap();
@@ -39,17 +38,13 @@ fn every_scene_that_ships_is_planned_and_drawn() {
     }
 }
 
-/// And so they show the crate as it is. They are drawn by
-/// `shutter plan --force --out docs/curve.svg --set-ups docs/set-ups.svg`.
+/// And so it shows the crate as it is. It is drawn by `shutter plan --force --out docs/curve.svg`.
 #[test]
-fn the_pictures_of_the_docs_are_as_they_are_drawn() {
+fn the_picture_of_the_docs_is_as_it_is_drawn() {
     let folder = Folder::new("docs");
-    folder.run("plan --out curve.svg --set-ups set-ups.svg").well();
-    for picture in ["curve.svg", "set-ups.svg"] {
-        let kept = fs::read_to_string(format!("{SCENES}/../../docs/{picture}")).unwrap();
-        assert!(folder.text(picture) == kept, "docs/{picture} is old");
-    }
+    folder.run("plan --out curve.svg").well();
     let svg = folder.text("curve.svg");
+    assert!(svg == fs::read_to_string(format!("{SCENES}/../../docs/curve.svg")).unwrap(), "docs/curve.svg is old");
     // A share is shaded for each trigger. One dot on the openness, one on the cdf, one in the legend; eight control
     // points and one in the legend, four handles and one.
     for (mark, count) in [
@@ -63,29 +58,20 @@ fn the_pictures_of_the_docs_are_as_they_are_drawn() {
 }
 
 #[test]
-fn both_set_ups_are_drawn_with_their_doses() {
-    for scene in ["soft", "led", "projector", "box", "strobe"] {
-        let svg = shutter::picture::set_ups(scene, &self::scene(scene)).unwrap();
-        assert!(svg.contains("prefers-color-scheme: dark"));
-        let doses = |percent: &str| svg.matches(&format!("\n{percent}\n</text>")).count();
-        // What a flash has lost that comes where soft is open to 0.611.
-        match scene {
-            "soft" | "led" => {
-                assert_eq!((doses("100"), doses("61"), doses("96")), (12 + 8 + 12, 2, 2))
-            }
-            // And the axes of time end at 100 µs.
-            "box" => assert_eq!(doses("100"), 30 + 3),
-            _ => (),
-        }
-    }
-}
-
-#[test]
 fn a_picture_has_a_title_and_colours_for_the_dark() {
     let svg = shutter::picture::svg("a & b <c>", &planned(TRAPEZOID, "triggers = 1")).unwrap();
     let title = "<title>Openness and exposure of the shutter a &amp; b &lt;c> over time, with its triggers</title>";
     assert_eq!(svg.lines().nth(1), Some(title));
     assert!(svg.contains("1 trigger in the middle of the exposure"));
+    // In the light's path, of a lamp's pulse there is what comes through.
+    for (set_up, is_flat) in [("emulated", true), ("in_path", false)] {
+        let plan = planned(TRAPEZOID, &format!("triggers = 1; pulse = 0.9; set_up = '{set_up}'"));
+        let svg = shutter::picture::svg("lit", &plan).unwrap();
+        let (_, points) = svg.split_once("fill=\"#F0AB7C\" points=\"").unwrap();
+        let heights = points.split('"').next().unwrap().split(' ').filter_map(|point| point.split_once(','));
+        let heights: BTreeSet<_> = heights.map(|(_, y)| y).collect();
+        assert_eq!(heights.len() == 2, is_flat, "{set_up}: {heights:?}");
+    }
     let (head, drawn) = svg.split_once("</style>").unwrap();
     assert!(head.contains("@media (prefers-color-scheme: dark)"));
     // Each colour that is drawn has another for the dark.
