@@ -6,7 +6,7 @@ use shutter_fit::fact::{Fact, Message};
 use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Tell, Trace};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Fit, From, Options, report, speed};
-use shutter_plan::fitted::{Zero, curve_shutter, shutter};
+use shutter_plan::fitted::{curve_shutter, shutter};
 use shutter_plan::scene::Shutter;
 
 /// More samples are drawn as the least and the greatest of neighbours.
@@ -113,9 +113,8 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
     let mut fit = shutter_fit::fit(&recording.trace, &options, progress)?;
     fit.reading = Some(recording.reading);
     fit.warnings.splice(..0, recording.warnings);
-    let (own, zero) = shutter(&fit, name, Zero::Trace, None)?;
-    let start = if zero == Zero::Open { fit.opens } else { 0.0 };
-    let curve = moved(curve_shutter(&fit, name, Zero::Open, None)?.0, fit.best().signal.curve.start - start);
+    let (own, start) = (shutter(&fit, name, None)?, fit.opens);
+    let curve = moved(curve_shutter(&fit, name, None)?, fit.best().signal.curve.start - start);
     let signal = &fit.best().signal;
     let samples = fit.samples.times.iter().zip(&fit.samples.values).map(|(&t, &v)| {
         let residual = (v - fit.value(t)) / signal.gain;

@@ -68,6 +68,6 @@ use shutter_curve::{ShutterCurve, expect};
 #[allow(dead_code, clippy::unreadable_literal)]
 #[rustfmt::skip]
 pub static SHUTTER: ShutterCurve = expect!(ShutterCurve::shutteropening(
-    [0.004247017, 0.006873907, 0.010958795, 0.0129576195],
+    [0.0, 0.0026268899, 0.0067117787, 0.008710602],
     [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.852301, 0.9329666, 0.9066354, 0.0005208],
 ));

@@ -9,67 +9,45 @@ use crate::fault::What;
 use crate::plan::Plan;
 use crate::scene::{Flashes, Measured, Scene, Shutter};
 
-/// Where a scene's time 0 is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
-pub enum Zero {
-    /// As in the trace.
-    #[default]
-    Trace,
-    /// Where the shutter starts to open.
-    Open,
-}
-
-/// By its rounding to `f32`, a time may be off by this share of the interval; else time 0 moves.
-const ROUNDING: f64 = 1e-6;
 /// A ramp or a plateau is at least this share of the greatest time: four times what the crate asks for.
 const LEAST: f64 = 1.0 / (1 << 22) as f64;
 /// The digits of a time, counted from the interval's first.
 const DIGITS: i32 = 8;
 
-/// The fit of the trace `name` as a shutter in this unit, or the one that suits it, and where its time 0 is in fact:
-/// where times would be lost in rounding, it moves to the start of opening. Where the results are the trace's own, it
-/// has their trigger times and no curve, unless a model was asked for.
+/// The fit of the trace `name` as a shutter in this unit, or the one that suits it; its times count from the start of
+/// opening. Where the results are the trace's own, it has their trigger times and no curve, unless a model was asked
+/// for.
 ///
 /// # Errors
 /// Where it cannot be planned.
-pub fn shutter(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<(Shutter, Zero), Refusal> {
+pub fn shutter(fit: &Fit, name: &str, unit: Option<Unit>) -> Result<Shutter, Refusal> {
     if fit.from == From::Model || fit.reason == Reason::Asked {
-        return curve_shutter(fit, name, zero, unit);
+        return curve_shutter(fit, name, unit);
     }
     let of = Numbers::new(fit, unit);
-    let start = if zero == Zero::Open { fit.opens } else { 0.0 };
-    let time = |seconds: f64| of.time(seconds - start);
-    let own = Shutter {
-        open_start: Some(time(fit.opens)),
-        trigger_times: Some(fit.triggers.iter().map(|trigger| time(trigger.value)).collect()),
-        ..of.shutter(fit, name)
-    };
-    planned(fit, own, zero)
+    let times = fit.triggers.iter().map(|trigger| of.time(trigger.value - fit.opens));
+    planned(fit, Shutter { trigger_times: Some(times.collect()), ..of.shutter(fit, name, fit.opens) })
 }
 
 /// The chosen model's curve, whether it explains the trace or not.
 ///
 /// # Errors
 /// Where it cannot be planned.
-pub fn curve_shutter(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<(Shutter, Zero), Refusal> {
+pub fn curve_shutter(fit: &Fit, name: &str, unit: Option<Unit>) -> Result<Shutter, Refusal> {
     let of = Numbers::new(fit, unit);
     let curve = fit.best().signal.curve;
-    let rounding = f64::from(f32::EPSILON) / 2.0 * curve.start.abs().max(curve.end().abs());
-    let zero = if rounding > ROUNDING * curve.length() { Zero::Open } else { zero };
-    let curve = if zero == Zero::Open { curve.mapped(1.0, -curve.start) } else { curve };
-    let curve = resolved(&curve);
-    let [open_start, open_end, close_start, close_end] = curve.times().map(|time| Some(of.time(time)));
+    let opens = curve.start;
+    let curve = resolved(&curve.mapped(1.0, -opens));
+    let [_, open_end, close_start, close_end] = curve.times().map(|time| Some(of.time(time)));
     let has_ramps = fit.chosen > Kind::Trapezoid;
     let own = Shutter {
-        open_start,
         open_end,
         close_start,
         close_end,
         shutteropening: has_ramps.then(|| inner(&curve).map(|x| to(x, 7)).to_vec()),
-        ..of.shutter(fit, name)
+        ..of.shutter(fit, name, opens)
     };
-    planned(fit, own, zero)
+    planned(fit, own)
 }
 
 /// What a user writes once: a table of the flashes, with what only they know left out.
@@ -92,12 +70,12 @@ pub fn flashes(shutter: &Shutter, triggers: usize) -> String {
 }
 
 /// The shutter, if it can be planned.
-fn planned(fit: &Fit, shutter: Shutter, zero: Zero) -> Result<(Shutter, Zero), Refusal> {
+fn planned(fit: &Fit, shutter: Shutter) -> Result<Shutter, Refusal> {
     let flashes = Flashes { triggers: Some(fit.triggers.len() as f64), ..Flashes::default() };
     // Whether its triggers come behind the edge depends on the lamp.
     let alone = Shutter { delay: None, delay_spread: None, sync_falls: None, ..shutter.clone() };
     match Plan::new(&Scene { shutter: alone, flashes, is_edited: false }) {
-        Ok(_) => Ok((shutter, zero)),
+        Ok(_) => Ok(shutter),
         Err(fault) => {
             let crowded = matches!(*fault.what, What::Close { .. } | What::TimesClose(_));
             Err(Refusal::NoScene { reason: fault.reason(), crowded })
@@ -121,12 +99,14 @@ impl Numbers {
         to(self.unit.of(seconds), self.places)
     }
 
-    /// All but the curve or the triggers.
-    fn shutter(&self, fit: &Fit, name: &str) -> Shutter {
+    /// All but the curve or the triggers, of a shutter that opens at this time of the trace.
+    fn shutter(&self, fit: &Fit, name: &str, opens: f64) -> Shutter {
         let delay = fit.delay.as_ref();
         Shutter {
             unit: Some(self.unit),
-            delay: delay.map(|delay| self.time(delay.mean())),
+            open_start: Some(0.0),
+            // A model that does not explain the trace may open elsewhere.
+            delay: delay.map(|delay| self.time(delay.mean() + opens - fit.opens)),
             delay_spread: delay.and_then(|it| it.spread()).map(|spread| rounded(self.unit.of(spread), 2)),
             sync_falls: delay.and_then(|delay| delay.switch).map(|switch| switch.falls()),
             sync_settles: settles(fit).map(|seconds| rounded(self.unit.of(seconds), 2)),

@@ -20,7 +20,7 @@ use super::read::{self, Asked, Read};
 use crate::picture;
 use shutter_plan::emit::Form;
 use shutter_plan::facts::Facts;
-use shutter_plan::fitted::{self, Zero};
+use shutter_plan::fitted;
 use shutter_plan::plan::{MOST_TRIGGERS, Plan};
 use shutter_plan::scene::{Scene, Written};
 
@@ -95,9 +95,6 @@ pub struct Args {
     /// The report's form; `json` is an object, or for several speeds an array; later versions keep its names
     #[arg(long, default_value = "text")]
     report: Report,
-    /// Where the scene's time 0 is
-    #[arg(long, default_value = "trace")]
-    zero: Zero,
 }
 
 impl Args {
@@ -209,7 +206,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
 
     // What is refused from here on leaves the report.
     let mut said = Said::default();
-    let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut said);
+    let ready = write(args, &speeds, &scenes, olds, outputs, &mut said);
     let mut told = warned(&speeds);
     told.extend(speeds.iter().filter_map(|speed| far_from_nominal(speed, &speeds)));
     told.extend(edges_apart(args, &speeds));
@@ -393,18 +390,18 @@ struct Said {
 /// All that is written: scenes, each in place of the shutter of an older one, and a picture.
 fn write(
     args: &Args,
-    speeds: &mut [Speed],
+    speeds: &[Speed],
     files: &[PathBuf],
     olds: Vec<Option<Old>>,
     mut outputs: Outputs,
     said: &mut Said,
 ) -> Result<Ready, String> {
     let mut olds = olds.into_iter();
-    for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
+    for (i, Speed { name, fit, .. }) in speeds.iter().enumerate() {
         let old = olds.next().flatten();
         let unit = old.as_ref().map(|(scene, _)| scene.shutter.unit());
-        let (shutter, zero) = fitted::shutter(fit, name, args.zero, unit)
-            .map_err(|refusal| format!("{name}: {}", refusal.with_option()))?;
+        let shutter =
+            fitted::shutter(fit, name, unit).map_err(|refusal| format!("{name}: {}", refusal.with_option()))?;
         if let Some(old) = old.as_ref().map(|(scene, _)| &scene.shutter) {
             for (key, option, was, is) in
                 [("nominal", "--nominal", old.nominal, shutter.nominal), ("delay", "--sync", old.delay, shutter.delay)]
@@ -425,9 +422,6 @@ fn write(
             said.scene = text;
             continue;
         };
-        if zero != args.zero {
-            warnings.push(Warning::ZeroMoved);
-        }
         let file_name = file.display();
         match Plan::new(&scene) {
             // What the fit finds doubtful is told already.
@@ -444,7 +438,7 @@ fn write(
         }
         outputs.replace(file, text)?;
     }
-    if let (Some(file), [Speed { name, fit, .. }]) = (&args.picture, &*speeds) {
+    if let (Some(file), [Speed { name, fit, .. }]) = (&args.picture, speeds) {
         let picture = picture::trace(name, fit).map_err(|e| format!("the picture: {e}"))?;
         outputs.add(file, Some(mark::SVG), picture)?;
     }

@@ -7,7 +7,7 @@ use std::fs;
 use serde_json::Value;
 use shutter_fit::trace::{self, Light, Recording, Refusal, Tell, Trace, Warning};
 use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit, report};
-use shutter_plan::fitted::{self, Zero};
+use shutter_plan::fitted;
 use shutter_plan::plan::Plan;
 use shutter_plan::scene;
 
@@ -333,8 +333,8 @@ fn scene(shutter: &scene::Shutter, fit: &Fit) -> String {
 }
 
 /// The triggers of the scene that a fit writes, by the crate itself.
-fn planned(fit: &Fit, zero: Zero) -> Plan {
-    Plan::parse(&scene(&fitted::shutter(fit, "a trace\nwith two lines", zero, None).unwrap().0, fit)).unwrap()
+fn planned(fit: &Fit) -> Plan {
+    Plan::parse(&scene(&fitted::shutter(fit, "a trace\nwith two lines", None).unwrap(), fit)).unwrap()
 }
 
 #[test]
@@ -343,14 +343,11 @@ fn the_scene_gives_the_same_triggers() {
         let mut random = Random::new(40 + k as u64);
         let case = traced(shutter, 1000.0, 0.005, &mut random);
         let fit = case.fitted(&Options::default());
-        for zero in [Zero::Trace, Zero::Open] {
-            let plan = planned(&fit, zero);
-            let start = if zero == Zero::Open { fit.best().signal.curve.start } else { 0.0 };
-            assert_eq!(plan.triggers.len(), 16);
-            for (a, b) in plan.triggers.iter().zip(&fit.triggers) {
-                let off = a.time - (b.value - start);
-                assert!(off.abs() < 2e-6 * fit.exposure.value, "{shutter:?}: {off:e}");
-            }
+        let plan = planned(&fit);
+        assert_eq!((plan.triggers.len(), plan.start), (16, 0.0));
+        for (a, b) in plan.triggers.iter().zip(&fit.triggers) {
+            let off = a.time - (b.value - fit.opens);
+            assert!(off.abs() < 2e-6 * fit.exposure.value, "{shutter:?}: {off:e}");
         }
     }
 }
@@ -363,18 +360,9 @@ fn every_corner_of_the_control_numbers_is_a_scene() {
         let case = Recorder::new(200.0, 1.0, 0.0).record(truth, &mut Random::new(0));
         for model in [Kind::Symmetric, Kind::Free] {
             let options = Options { model: Some(model), ..Options::default() };
-            planned(&case.fitted(&options), Zero::Trace);
+            planned(&case.fitted(&options));
         }
     });
-}
-
-#[test]
-fn a_late_trace_moves_time_0_to_the_opening() {
-    let mut trace = sampled(trapezoid, 1000, 0.005);
-    trace.times.iter_mut().for_each(|t| *t += 1e4);
-    let fit = plainly(&trace);
-    let (shutter, zero) = fitted::shutter(&fit, "late", Zero::Trace, None).unwrap();
-    assert_eq!((zero, shutter.open_start), (Zero::Open, Some(0.0)));
 }
 
 #[test]
@@ -413,7 +401,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
 fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
     let folder = Folder::new("written");
     folder.write("leaf&co.csv", leaf(1.0));
-    let line = "fit 'leaf&co.csv' --out a.toml --picture a.svg --triggers 5 --zero open";
+    let line = "fit 'leaf&co.csv' --out a.toml --picture a.svg --triggers 5";
     let out = folder.run(line).well().out;
     assert!(out.lines().all(|line| line.chars().count() <= 80), "{out}");
     let scene = folder.text("a.toml");
@@ -437,18 +425,18 @@ fn from_a_trace_to_the_firmwares_module() {
     let [fit, synced] = [Options::default(), options].map(|options| fitted(&trace.trace, &options).unwrap());
     // The same with the timer of the board and what the lamp needs, which a user fills in.
     let kept = Plan::parse(MEASURED).unwrap();
-    for (fitted, kept) in planned(&fit, Zero::Trace).triggers.iter().zip(&kept.triggers) {
+    for (fitted, kept) in planned(&fit).triggers.iter().zip(&kept.triggers) {
         assert!((fitted.time - kept.time).abs() < 1e-4 * fit.exposure.value);
     }
     let seconds = |plan: &Plan| plan.sync.delay.unwrap().seconds;
-    let delay = seconds(&planned(&synced, Zero::Trace));
+    let delay = seconds(&planned(&synced));
     assert!((delay - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
     let form = shutter_plan::emit::Form::Rust;
     let module = shutter_plan::emit::emit(form, "measured", &kept, true).unwrap();
     assert_eq!(module, read("../examples/trigger/measured.rs"));
 }
 
-/// The edge of the sync is where the trace's time is told to be, whatever the scene's time 0.
+/// The edge of the sync is where the trace's time is told to be.
 #[test]
 fn the_delay_from_the_sync_is_measured() {
     let folder = Folder::new("delay");
@@ -456,8 +444,8 @@ fn the_delay_from_the_sync_is_measured() {
     let (read, _) = through(leaf(1.0), &trace::Options::default());
     let start = read.best().signal.curve.start;
     assert!(start > 0.0005 && read.delay.is_none());
-    for (sync, at, zero) in [("0", 0.0, "trace"), ("0.4ms", 4e-4, "open"), ("-1e-3s", -1e-3, "open")] {
-        let run = folder.run(&format!("fit a.csv --out a.toml --sync {sync} --zero {zero}")).well();
+    for (sync, at) in [("0", 0.0), ("0.4ms", 4e-4), ("-1e-3s", -1e-3)] {
+        let run = folder.run(&format!("fit a.csv --out a.toml --sync {sync}")).well();
         assert!(!run.err.contains("warning"), "{}", run.err);
         let line = run.out.lines().find(|line| line.starts_with("delay        "));
         assert!(line.is_some_and(|line| line.contains(" ms to the opening, ± ")), "{}", run.out);
@@ -496,7 +484,7 @@ fn the_firmwares_pulses_split_the_light_of_the_trace() {
     let plan = Plan::parse(MEASURED).unwrap();
     for trigger in &plan.triggers {
         let time = f64::from(trigger.ticks) / f64::from(plan.timer.hz);
-        let share = light(plan.start + time) / light(1.0);
+        let share = light(plan.sync.delay.unwrap().seconds + time) / light(1.0);
         assert!((share - f64::from(trigger.u.unwrap())).abs() < 5e-4, "{trigger:?}: {share}");
     }
 }

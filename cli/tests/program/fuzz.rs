@@ -123,7 +123,7 @@ fn file(seed: u64) -> (Vec<u8>, Vec<&'static str>) {
     #[rustfmt::skip]
     let asked: [&[&str]; 8] = [
         &[], &[], &[], &["--rate", "100000"], &["--unit", "us"], &["--columns", "2"], &["--light", "down"],
-        &["--model", "free", "--zero", "open", "--triggers", "3"],
+        &["--model", "free", "--triggers", "3"],
     ];
     (bytes, asked[below(&mut random, asked.len())].to_vec())
 }

@@ -328,14 +328,14 @@ fn a_fit_replaces_its_table_and_nothing_else() {
         let now = scene();
         assert_eq!(apart(&now).0, apart(&edited).0);
         // Neither a delay nor a spread that it did not measure is left.
-        has(&now, &["\nnominal = 8.0\n", "\nopen_start = 4.0", "\ntrace = \"slow.csv\"\n"], &["delay", "trace.csv"]);
+        has(&now, &["\nnominal = 8.0\n", "\nclose_end = 14.00", "\ntrace = \"slow.csv\"\n"], &["delay", "trace.csv"]);
         assert_eq!(folder.run("plan leaf.toml --emit json").well().err, "");
     }
     // The unit stays, since the flashes may count in it.
     let us = first.replace("unit = \"ms\"", "unit = \"us\"");
     folder.write("leaf.toml", &us);
     fit("trace.csv --sync 0 --force");
-    has(&scene(), &["[shutter]\nunit = \"µs\"\nopen_start = 20", "\ndelay = 20"], &[]);
+    has(&scene(), &["[shutter]\nunit = \"µs\"\nopen_start = 0.0\nopen_end = 1997", "\ndelay = 20"], &[]);
     // What a hand changed in the shutter is not lost, be it a comment.
     let below = "you have changed what a fit wrote below [shutter]; what is yours belongs below [flashes]";
     let foreign = "it holds no scene that a fit wrote; --force replaces it all";

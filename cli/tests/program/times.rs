@@ -57,7 +57,7 @@ fn the_ticks_of_a_trace_that_no_model_explains_are_its_own_triggers() {
             let off = |key: &str, by: f64| (number(planned, key) / hz - by).abs() * hz;
             assert!(off("ticks", time - opens) < 0.51, "{given} {planned}");
             assert!(off("from_edge_ticks", time - opens + delay) < 1.02, "{given} {planned}");
-            assert!((number(planned, "time_s") - time).abs() < 1e-9);
+            assert!((number(planned, "time_s") - (time - opens)).abs() < 1e-9);
         }
         // They are not the model's, which differ by more than a tick, and whose errors say so.
         let mut most = 0.0;
@@ -77,38 +77,27 @@ fn light_before_the_opening_is_triggered_too() {
     let (json, text) = fitted(&folder("early", 0.0, early), "--triggers 200");
     let times = Plan::parse(&text).unwrap();
     // 0.08 ms of 6.08, in full light.
-    let early = times.triggers.iter().filter(|trigger| trigger.time < 1.4e-3).count();
-    assert!((2..=3).contains(&early), "{early}");
     let opens = number(&json, "opens_s");
+    let early = times.triggers.iter().filter(|trigger| opens + trigger.time < 1.4e-3).count();
+    assert!((2..=3).contains(&early), "{early}");
     // The dark is searched in twelfths, here of 0.4 ms.
     assert!((0.5e-3..=0.91e-3).contains(&opens), "{opens}");
-    assert!((times.start - opens).abs() < 1e-9);
 }
 
 #[test]
 fn who_asks_for_a_model_gets_its_curve_and_is_told() {
     let folder = folder("model", 0.0, bounces);
-    let (json, text) = fitted(&folder, "--model trapezoid");
+    let (json, text) = fitted(&folder, "--model trapezoid --sync 1ms");
     assert_eq!(json["triggers_from"], "trace");
     let doubt = "as asked, though it does not explain the trace";
     assert!(text.contains(doubt) && text.contains("\nclose_end = "), "{text}");
     assert!(!text.contains("trigger_times"), "{text}");
     folder.run("plan a.toml").well();
-}
-
-/// With time 0 at the opening, nothing else changes.
-#[test]
-fn time_0_is_where_it_is_asked_for() {
-    let folder = folder("zero", 0.0, bounces);
-    let plan = |zero: &str| {
-        let (json, text) = fitted(&folder, &format!("--zero {zero}"));
-        (number(&json, "opens_s"), Plan::parse(&text).unwrap())
-    };
-    let ((opens, by_trace), (_, by_opening)) = (plan("trace"), plan("open"));
-    assert_eq!(by_opening.start, 0.0);
-    assert!((by_trace.start - opens).abs() < 1e-10);
-    let ticks = |times: &Plan| times.triggers.iter().map(|t| t.ticks).collect::<Vec<_>>();
-    assert_eq!(ticks(&by_trace), ticks(&by_opening));
+    // It opens elsewhere than the trace does, and its delay ends there: its middle trigger comes when the fit's does.
+    let plan = Plan::parse(&text).unwrap();
+    let middle = number(&json["model_triggers"][8], "time_s");
+    assert!((plan.sync.delay.unwrap().seconds + plan.triggers[8].time - (middle - 1e-3)).abs() < 1e-8, "{json}");
+    assert!((number(&json, "delay_s") - plan.sync.delay.unwrap().seconds).abs() > 1e-5, "{json}");
 }
 
 #[test]

@@ -297,8 +297,6 @@ messages! {
         };
     Untested
         "there is too little dark beside the pulse to tell whether the model explains the trace; record more of it";
-    ZeroMoved
-        "the trace's times are too far from 0 for the scene's numbers; time 0 is where the shutter starts to open";
 }
 
 /// The setting that mends what is refused or doubtful.
