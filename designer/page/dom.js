@@ -1,12 +1,15 @@
 // Elements of the page.
 
-import { KINDS } from './scene.js';
+import { html, nothing } from 'lit-html';
 
 export const $ = (id) => document.getElementById(id);
 
-/** A key's name, as its field has it on the page; another word is its own. */
-export const label = (id) => id === 'fully_open' ? 'flashes while fully open'
-  : Object.hasOwn(KINDS, id) ? $(id).labels[0].firstChild.data.trim().replace(/,$/, '') : id;
+/** A choice of one of some, each [value, words], with an `id` or a `name`; a choice stays till the value moves. */
+export function choice(words, { options, value, ...more }) {
+  const option = ([of, words]) => html`<option value=${of} ?selected=${String(of) === String(value)}>${words}</option>`;
+  return html`<label>${words} <select id=${more.id ?? nothing} name=${more.name ?? nothing} ?disabled=${more.disabled}
+    .value=${String(value)} @change=${more.changed}>${options.map(option)}</select></label>`;
+}
 
 /** A place as a picture takes it, however far outside it is. */
 export const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);

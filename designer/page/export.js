@@ -26,7 +26,7 @@ const chosen = () => $('forms').querySelector(':checked');
 const isNewForm = watch();
 
 export function drawExport({ now: { scene }, view, wrong }) {
-  $('link').disabled = !view || Boolean(wrong?.id || scene.untold);
+  $('link').disabled = !view || Boolean(wrong?.id);
   const form = chosen().id.replace('form-', '');
   if (!isNewForm(scene, form, wrong)) return;
   say('');
@@ -40,7 +40,6 @@ export function drawExport({ now: { scene }, view, wrong }) {
 const offerCopy = (isOffered) => ['copy', 'save'].forEach((id) => ($(id).disabled = !isOffered));
 
 async function written(scene, form) {
-  if (scene.untold) return { reason: scene.untold, remedies: [['Use the curve all the same', { untold: null }]] };
   const lacks = form === 'toml' ? [] : LACKS.filter(([, is]) => is(scene));
   if (lacks.length) {
     const reason = `hardware needs what only you know: ${lacks.map(([what]) => what).join('; ')}`;

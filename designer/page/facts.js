@@ -69,7 +69,7 @@ export function drawFacts(model, samples) {
     const about = doubts.filter((it) => title === (facts.has(it.about) ? it.about : first));
     const words = inWords(text);
     // A channel that may be the sync's is asked for.
-    const isAsked = title === 'delay' && fit && trace.file && trace.measured.names.length > 2 && !trace.asked.sync;
+    const isAsked = title === 'delay' && fit && trace.measured.names.length > 2 && !trace.asked.sync;
     const shown = title === 'exposure' ? html`<b>${words}</b>` : words;
     return html`<div data-fact=${title}><dt>${title}</dt><dd>${shown}
       ${isAsked ? leads('sync') : nothing}${about.map((it) => doubt(it.text))}</dd></div>`;

@@ -1,12 +1,16 @@
 // The numbers: as people write them they become those of the scene, and stay as they are typed.
 
-import { $, label, write } from './dom.js';
-import { change, model, refuse, seal } from './model.js';
+import { html, nothing, render } from 'lit-html';
+import { live } from 'lit-html/directives/live.js';
+import { units as UNITS } from 'presets';
+import { $, choice } from './dom.js';
+import { change, give, model, refuse, seal } from './model.js';
 import { dial, parse } from './numbers.js';
 import {
-  CHOICES, FIELDS, INNER, KINDS, LAMP, TIMES,
-  inUnit, innerOf, isCount, lampOf, perSecond, tidy, timesOf, valueOf, withInner, withTimes, withValues,
+  CHOICES, FIELDS, INNER, KINDS, TIMES,
+  given, inUnit, innerOf, isCount, label, lampOf, perSecond, tidy, timesOf, valueOf, withInner, withTimes,
 } from './scene.js';
+import { fieldsAt } from './told.js';
 import { readTrace } from './trace.js';
 
 /** Begins. */
@@ -25,7 +29,7 @@ export function startForm() {
 function readField(id, unit) {
   const value = parse($(id).value, KINDS[id], unit);
   if (!Number.isNaN(value)) return value;
-  if ($(id).hasAttribute('data-optional')) return null;
+  if (id in NONE) return null;
   throw new Error(`${label(id)}: a number is required`);
 }
 
@@ -38,24 +42,13 @@ function tells(id, value, unit) {
   }
 }
 
-/** A scene with values that a person gives, which are theirs from now on. */
-function given(scene, keys) {
-  const told = keys.map((key) => (LAMP.includes(key) ? 'lamp' : key));
-  return { ...scene, given: [...new Set([...scene.given, ...told])] };
-}
-
-/** Changes values of fields. */
-export function give(values, key) {
-  change({ scene: given(withValues(model.now.scene, values), Object.keys(values)) }, { key });
-}
-
 // So many flashes. Those of a trace are its own: it is asked again.
 function setTriggers(n, key) {
   const { scene: { own }, trace } = model.now, measured = own?.trigger_times.length;
   // Another number of this trace's own may be under way.
   if (trace && n === measured && model.busy?.file === trace.file) model.busy?.cancel();
   if (!own || n === measured) return give({ triggers: n }, key);
-  if (!trace?.file) {
+  if (!trace) {
     return refuse(`These are ${measured} measured times: for another number, drop the trace again.`, 'triggers');
   }
   if (!isCount(n)) return refuse(`${label('triggers')}: a whole number from 1 to 10000 is required`, 'triggers');
@@ -110,22 +103,58 @@ function dialled(value, unit) {
   return Number.isInteger(part) ? `${words}${seconds < 0.3 ? '' : ' s'}` : `${value} ${unit}`;
 }
 
-// Writes the numbers; what is typed stays as it is.
-export function drawForm({ now: { scene }, wrong }) {
-  for (const id of FIELDS) {
-    const { value, words } = wordsOf(scene, id);
-    if (wrong?.id !== id && $(id).value !== words && !tells(id, value, scene.unit)) $(id).value = words;
-  }
-  const name = $('name');
-  if (document.activeElement !== name || (name.value.trim() || 'shutter') !== scene.name) name.value = scene.name;
-  $('unit').value = scene.unit;
-  for (const id of ['set_up', 'sync_falls']) $(id).value = String(valueOf(scene, id) ?? '');
-  $('straight').checked = !scene.shutter.shutteropening;
-  const kind = lampOf(scene);
-  $('lamp').value = kind;
-  $('lamp').disabled = Boolean(scene.own);
-  for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== kind;
-  for (const small of document.querySelectorAll('small.unit')) write(small, scene.unit);
-  // From where the times are counted.
-  write($('times-from'), valueOf(scene, 'delay') === null ? 'Times' : 'Times from the edge of the sync');
+/** What stands in the empty field of a number that may be left out. */
+const NONE = {
+  timer_hz: 'not given', min_gap: 'not given', nominal: '1/125', delay: 'none', timer_bits: '32', delay_spread: 'none',
+  sync_settles: 'at once', lamp_lag: 'none', min_pulse: 'none',
+};
+const HINTS = {
+  delay: 'From the edge of the camera’s sync to the start of opening',
+  delay_spread: 'The sync delay’s standard deviation from shot to shot',
+  duty: 'The part of the time that is lit, up to 1', lamp_lag: 'From switching the lamp on to its light',
+  sync_settles: 'So long after its first edge the sync’s contact may bounce',
+};
+const SET_UPS = [
+  ['', 'not said yet'], ['emulated', 'emulated: the camera stays open'], ['in_path', 'in the path: dims the lamp'],
+];
+const LAMPS = [
+  ['', 'flashes'], ['pulse', 'equal pulses'], ['duty', 'pulses of equal doses'], ['full', 'flashes while fully open'],
+];
+
+/** Writes the numbers; what is typed stays as it is. */
+export function drawForm(model) {
+  const { now: { scene, scene: { name, unit } }, wrong } = model, at = fieldsAt(model), lamp = lampOf(scene);
+  const number = (id, of) => {
+    const { value, words } = wordsOf(scene, id), is = at.includes(id);
+    const isTyped = wrong?.id === id || tells(id, value, unit);
+    return html`<label title=${HINTS[id] ?? nothing} ?hidden=${of && of !== lamp}>
+      ${label(id)}${KINDS[id] === 'time' && !TIMES.includes(id) ? `, ${unit}` : ''}
+      <input id=${id} placeholder=${NONE[id] ?? nothing} .value=${live(isTyped ? $(id).value : words)}
+        aria-invalid=${is ? 'true' : nothing} aria-describedby=${is ? 'problem' : nothing}></label>`;
+  };
+  const chosen = (id, options) => choice(label(id), { id, options, value: valueOf(scene, id) ?? '' });
+  const numbers = (...ids) => ids.map((id) => number(id));
+  const typed = document.activeElement === $('name') ? $('name').value : name;
+  render(html`<div class="head"><h2 id="numbers-title">Numbers</h2>
+    <label class="inline">name <input id="name" maxlength="60" spellcheck="false"
+      .value=${live((typed.trim() || 'shutter') === name ? typed : name)}></label></div>
+  <div class="fields">
+    <fieldset><legend>${valueOf(scene, 'delay') === null ? 'Times' : 'Times from the edge of the sync'}</legend>
+      ${choice('unit', { id: 'unit', options: UNITS.map((unit) => [unit, unit]), value: unit })}
+      ${numbers(...TIMES)}</fieldset>
+    <fieldset><legend>Flashes</legend>${numbers('triggers', 'timer_hz', 'min_gap', 'nominal', 'delay')}
+      ${chosen('sync_falls', [['', 'not said yet'], [true, 'falls'], [false, 'rises']])}</fieldset>
+    <fieldset><legend>Lamp</legend>${chosen('set_up', SET_UPS)}
+      ${choice('it gives', { id: 'lamp', options: LAMPS, value: lamp, disabled: Boolean(scene.own) })}
+      ${number('pulse', 'pulse')}${number('duty', 'duty')}</fieldset>
+  </div>
+  <details id="inner"><summary>More</summary>
+    <fieldset>${numbers('timer_bits', 'delay_spread', 'sync_settles', 'lamp_lag')}${number('min_pulse', 'duty')}
+      <label class="check"><input type="checkbox" id="straight" .checked=${live(!scene.shutter.shutteropening)}>
+        straight ramps</label></fieldset>
+    <fieldset><legend>The ramps’ control points</legend>${numbers(...INNER)}</fieldset>
+    <p class="note">t: time, from 0 at the start to 1 at the end; y: openness. 1 and 2 are of the opening ramp, 5 and 6
+      of the closing one.</p>
+  </details>`, $('numbers'));
+  if (at.some((id) => $('inner').contains($(id)))) $('inner').open = true;
 }

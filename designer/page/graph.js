@@ -20,24 +20,6 @@ function rounds(from, to, count) {
   return Array.from({ length: Math.min(last - first + 1, 50) }, (_, i) => tidy((first + i) * step));
 }
 
-/** The openness of a view at a time in seconds, as the ramps have it: for pictures alone. */
-export function openness({ times: [a, b, c, d], ramps }, t) {
-  if (t <= a || t >= d) return 0;
-  if (t >= b && t <= c) return 1;
-  const ramp = ramps[t < b ? 0 : 1];
-  const at = (p, k) => {
-    const q = 1 - p;
-    return q ** 3 * ramp[0][k] + 3 * p * q * q * ramp[1][k] + 3 * p * p * q * ramp[2][k] + p ** 3 * ramp[3][k];
-  };
-  let [low, high] = [0, 1];
-  for (let i = 0; i < 20; i++) {
-    const p = 0.5 * (low + high);
-    if (at(p, 0) < t) low = p;
-    else high = p;
-  }
-  return at(low, 1);
-}
-
 /** The ramps of a view as a part of a path; `place` is where a point of them is. */
 export function outline({ ramps }, place) {
   const [opening, closing] = ramps.map((ramp) => ramp.map(place));
@@ -72,7 +54,7 @@ export function shareAt(list, t) {
  */
 function left({ samples }, origin, view, fitted) {
   if (!fitted) return samples.map(([t, o, r]) => [t - origin, o, r]);
-  const moved = ([t, o, r]) => [t - origin, o, r + openness(fitted, t - fitted.origin) - openness(view, t - origin)];
+  const moved = ([t, o, r]) => [t - origin, o, r + fitted.openness(t - fitted.origin) - view.openness(t - origin)];
   return samples.map(moved);
 }
 
@@ -140,7 +122,7 @@ export class Graph {
     const beyond = !scene.own ? '' : s < first ? 'under ' : s > last ? 'over ' : '';
     const u = shareAt(collected(this), Math.min(Math.max(s, beyond ? first : s), beyond ? last : s));
     const places = Math.min(9, Math.max(0, Math.ceil(-Math.log10(this.perPixel))));
-    const open = Math.round(1e4 * openness(view, s)) / 100;
+    const open = Math.round(1e4 * view.openness(s)) / 100;
     const far = ([t]) => Math.abs(t - s);
     const near = marks.reduce((best, mark, i) => (far(mark) < far(marks[best]) ? i : best), 0);
     return [
@@ -262,7 +244,7 @@ export class Graph {
     // Of another number of flashes the fit has not told the errors.
     const told = isFitted && fit.triggers.length === flashes.triggers ? fit.triggers : [];
     const error = ([at, error]) => {
-      const t = at - origin, y = f(this.y(openness(view, t)));
+      const t = at - origin, y = f(this.y(view.openness(t)));
       return `M${f(X(t - error))} ${y}H${f(X(t + error))}m0 -5v10M${f(X(t - error))} ${Number(y) - 5}v10`;
     };
     // From the lowest on: each with the part of the picture that it keeps to.

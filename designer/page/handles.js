@@ -1,9 +1,9 @@
 // The handles of the graph: moved by mouse, finger and keys, each in its box.
 
 import { nothing, svg } from 'lit-html';
-import { $, atMost, label } from './dom.js';
+import { $, atMost } from './dom.js';
 import { change, model } from './model.js';
-import { INNER, TIMES, innerOf, short, tidy, timesOf, withInner, withTimes } from './scene.js';
+import { INNER, TIMES, innerOf, label, short, tidy, timesOf, withInner, withTimes } from './scene.js';
 import { allowed } from './view.js';
 
 /** The handles: the four times, then the four inner control points. */

@@ -1,7 +1,7 @@
 // What is on the screen: one object, which changes here alone and is drawn by one function. And the steps that led
 // there: undone and redone by keys and buttons. The browser's Back shows the scene before, be it undone or not.
 
-import { fromAddress, hash } from './scene.js';
+import { fromAddress, given, hash, withValues } from './scene.js';
 import { viewOf } from './view.js';
 
 /** A browser takes so many changes of its entries in ten seconds: steps that come faster share an entry. */
@@ -66,6 +66,10 @@ export function change(changes, { key, isDraft } = {}) {
   if (!isDraft && model.view) step(key);
   draw(model);
 }
+
+/** Changes values of fields. */
+export const give = (values, key) =>
+  change({ scene: given(withValues(model.now.scene, values), Object.keys(values)) }, { key });
 
 // Another shutter ends what is computed of an older one; what is drawn or typed does not.
 function overtake() {

@@ -14,6 +14,15 @@ const FLASHES = {
 export const KINDS = { ...FLASHES, ...SHUTTER };
 for (const key of TIMES) KINDS[key] = 'time';
 for (const key of INNER) KINDS[key] = 'part';
+/** What the page calls them. */
+const WORDS = {
+  open_start: 'starts to open at', open_end: 'fully open at', close_start: 'starts to close at', close_end: 'closed at',
+  triggers: 'how many', timer_hz: 'timer, Hz', timer_bits: 'timer, bits', min_gap: 'least gap',
+  nominal: 'speed on the dial', delay: 'sync delay', delay_spread: 'sync delay’s spread', sync_falls: 'the sync',
+  sync_settles: 'sync settles after', set_up: 'set-up', lamp_lag: 'lamp’s lag', pulse: 'length', duty: 'duty',
+  min_pulse: 'least length', fully_open: 'flashes while fully open',
+};
+export const label = (key) => WORDS[key] ?? key;
 /** What is one of a few. */
 export const CHOICES = { set_up: FLASHES.set_up, sync_falls: [false, true], fully_open: [false, true] };
 /** The numbers that have a field. */
@@ -48,13 +57,13 @@ const whole = (table, keys) => Object.fromEntries(keys.map((key) => [key, table[
 
 /**
  * The program's scene as one of this page: { name, unit, shutter, flashes }, all times in its unit; `own`, the triggers
- * of a trace that its curve does not explain; `untold`, why nothing is to be taken away; and which keys are `given`.
+ * of a trace that its curve does not explain; and which keys are `given`.
  */
 export function fromScene(name, { shutter, flashes }) {
   const unit = shutter.unit ?? flashes.unit;
   const keys = [...TIMES, 'shutteropening', ...Object.keys(SHUTTER), 'measured'];
   const scene = { name, unit: unit ?? 's', shutter: whole(shutter, keys), flashes: whole(flashes, Object.keys(FLASHES)),
-    own: null, untold: null, given: [] };
+    own: null, given: [] };
   // Of two units, that of the shutter.
   if (flashes.unit && flashes.unit !== unit) scene.flashes = inUnit({ ...scene, unit: flashes.unit }, unit).flashes;
   if (unit) return scene;
@@ -123,7 +132,7 @@ function withShape(scene, times, inner) {
   const origin = originOf(scene), { shutter, flashes } = scene;
   const told = TIMES.map((key, i) => [key, tidy(times[i] + origin)]);
   const drawn = { ...shutter, ...Object.fromEntries(told), shutteropening: inner, measured: null };
-  const next = { ...scene, shutter: drawn, own: null, untold: null };
+  const next = { ...scene, shutter: drawn, own: null };
   if (flashes.delay !== null) next.flashes = { ...flashes, delay: times[0] };
   else if (shutter.delay !== null) drawn.delay = times[0];
   return next;
@@ -139,8 +148,8 @@ export function withTimes(scene, times) {
 }
 
 /** The scene with the shutter of a fit; the edge of the sync stands still. */
-export function asFitted(scene, { shutter, own, untold }) {
-  const next = { ...scene, shutter: { ...shutter, nominal: scene.shutter.nominal }, own, untold };
+export function asFitted(scene, { shutter, own }) {
+  const next = { ...scene, shutter: { ...shutter, nominal: scene.shutter.nominal }, own };
   const delay = scene.flashes.delay === null ? null : tidy((own ?? shutter).open_start - originOf(scene));
   const triggers = own ? own.trigger_times.length : scene.flashes.triggers;
   return { ...next, flashes: { ...scene.flashes, delay, triggers } };
@@ -179,6 +188,12 @@ export function withValues(scene, values) {
   return { ...scene, shutter, flashes };
 }
 
+/** A scene with values that a person gives, which are theirs from now on. */
+export function given(scene, keys) {
+  const told = keys.map((key) => (LAMP.includes(key) ? 'lamp' : key));
+  return { ...scene, given: [...new Set([...scene.given, ...told])] };
+}
+
 export function lampOf({ flashes: { pulse, duty, fully_open } }) {
   return pulse !== null ? 'pulse' : duty !== null ? 'duty' : fully_open ? 'full' : '';
 }
@@ -205,12 +220,12 @@ const inLink = (key) => (key in SHUTTER ? `own_${key}` : key);
 
 /** The scene as the part of an address behind '#', with a table of speeds beside it if there is one. */
 export function hash({ scene, speeds }) {
-  const { name, unit, shutter, flashes, own, untold } = scene, { measured } = shutter;
+  const { name, unit, shutter, flashes, own } = scene, { measured } = shutter;
   const told = {
     name, unit: unit === 'µs' ? 'us' : unit, times: TIMES.map((key) => shutter[key]), inner: shutter.shutteropening,
     ...whole(shutter, Object.keys(SHUTTER)),
     ...Object.fromEntries(Object.keys(FLASHES).map((key) => [inLink(key), flashes[key]])),
-    triggers_at: own && [own.open_start, ...own.trigger_times], trace: measured && JSON.stringify(measured), untold,
+    triggers_at: own && [own.open_start, ...own.trigger_times], trace: measured && JSON.stringify(measured),
     speeds: speeds && JSON.stringify(speeds),
   };
   const parts = Object.entries(told).filter(([, value]) => value != null);
@@ -269,7 +284,7 @@ function fromParts(parts) {
       ...Object.fromEntries(TIMES.map((key, i) => [key, times[i]])),
       shutteropening: parts.has('inner') ? numbers('inner', 8) : null, ...table(SHUTTER, (key) => key), measured,
     },
-    flashes: table(FLASHES, inLink), own: null, untold: parts.get('untold'), given: GIVEN,
+    flashes: table(FLASHES, inLink), own: null, given: GIVEN,
   };
   if (parts.has('triggers_at')) {
     const [open_start, ...trigger_times] = numbers('triggers_at'), n = scene.flashes.triggers;

@@ -3,55 +3,42 @@
 import { toProgram } from './scene.js';
 import { fileOf } from './view.js';
 
-class Asked {
-  waiting = new Map();
-
-  // The question that is asked, and the newest that waits of each kind.
-  ask(kind, words, payload, progress) {
-    return new Promise((resolve) => {
-      this.waiting.get(kind)?.resolve();
-      this.waiting.set(kind, { kind, words, payload, progress, resolve });
-      this.next();
-    });
-  }
-
-  next() {
-    const [[first, question] = []] = this.waiting;
-    if (this.asked || !question) return;
-    this.waiting.delete(first);
-    this.asked = question;
-    this.worker ??= this.started();
-    const { kind, words, payload } = question;
-    this.worker.postMessage({ kind, words, payload });
-  }
-
-  started() {
+// A worker, and what is asked of it: one question at a time, and of each kind the newest.
+function asked() {
+  const waiting = new Map();
+  let worker, now;
+  const started = () => {
     const worker = new Worker(fileOf('worker.js'), { type: 'module' });
-    const failed = (words) => this.end({ Err: `this could not be computed${words}` });
-    worker.onmessage = ({ data: { progress, failed: why, answer } }) => {
-      if (progress !== undefined) this.asked?.progress?.(progress);
-      else if (why === undefined) this.end(answer, true);
-      else failed(` (${why})`);
-    };
-    worker.onerror = () => failed('');
+    worker.onmessage = ({ data: { progress, answer } }) => answer ? end(answer, true) : now?.progress?.(progress);
+    worker.onerror = ({ message }) => end({ Err: `this could not be computed (${message})` });
     return worker;
-  }
-
+  };
+  const next = () => {
+    const [[kind, question] = []] = waiting;
+    if (now || !question) return;
+    waiting.delete(kind);
+    now = question;
+    worker ??= started();
+    worker.postMessage({ kind, words: question.words, payload: question.payload });
+  };
   // Ends what is asked, with such an answer; nothing means that something newer came. What was not answered may have
   // left anything behind: the next question gets a new worker.
-  end(answer, isAnswered) {
-    if (!this.asked) return;
-    if (!isAnswered) {
-      this.worker?.terminate();
-      this.worker = null;
-    }
-    this.asked.resolve(answer);
-    this.asked = null;
-    this.next();
-  }
+  const end = (answer, isAnswered) => {
+    if (!now) return;
+    if (!isAnswered) worker = worker.terminate();
+    now.resolve(answer);
+    now = null;
+    next();
+  };
+  const ask = (kind, words, payload, progress) => new Promise((resolve) => {
+    waiting.get(kind)?.resolve();
+    waiting.set(kind, { words, payload, progress, resolve });
+    next();
+  });
+  return { ask, end };
 }
 
-const [scenes, fits] = [new Asked(), new Asked()];
+const [scenes, fits] = [asked(), asked()];
 // As TOML, which has no null.
 function toml(it) {
   if (Array.isArray(it)) return `[${it.map(toml)}]`;

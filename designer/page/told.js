@@ -2,10 +2,9 @@
 // seen wherever one is: what is wrong, computed or told, and which fields that is about.
 
 import { html, render } from 'lit-html';
-import { $, label, write } from './dom.js';
-import { give } from './form.js';
-import { change, go, model, tell } from './model.js';
-import { FIELDS, INNER } from './scene.js';
+import { $, write } from './dom.js';
+import { give, go, model, tell } from './model.js';
+import { INNER, label } from './scene.js';
 import { tellScene } from './studio.js';
 
 /** What was told of scenes when the page was built. */
@@ -38,6 +37,12 @@ export const inWords = (text) => text.replace(/`(\w+)`/g, (_, key) => `“${labe
 // What is wrong: as the engine finds it, the program tells it in words; and what the program alone finds.
 const wrongOf = (model) => model.wrong ?? toldNow(model)?.wrong;
 
+/** Which fields that is about. */
+export function fieldsAt(model) {
+  const wrong = wrongOf(model);
+  return wrong?.id ? [wrong.id] : wrong ? fieldsOf(wrong) : [];
+}
+
 function wordsOf(model) {
   const { isLink, reason } = wrongOf(model), told = toldNow(model)?.wrong;
   if (reason || !told) return reason ?? '';
@@ -47,11 +52,7 @@ function wordsOf(model) {
 
 /** Remedies as buttons: they change the scene, or lead to a field. */
 export const helps = (remedies) => remedies.map(([words, to]) => {
-  const help = () => {
-    if (typeof to === 'string') $(to).focus();
-    else if ('untold' in to) change({ scene: { ...model.now.scene, ...to } });
-    else give(changed(to));
-  };
+  const help = () => (typeof to === 'string' ? $(to).focus() : give(changed(to)));
   return html`<button type="button" @click=${help}>${words}</button>`;
 });
 
@@ -87,12 +88,4 @@ export function drawBar(model) {
   $('busy').hidden = !busy;
   const share = busy?.share ? `: ${Math.round(100 * busy.share)} %` : '';
   if (busy) write($('busy').firstElementChild, `${busy.words}${share} …`);
-  const at = !wrong ? [] : wrong.id ? [wrong.id] : fieldsOf(wrong);
-  for (const id of FIELDS) {
-    const field = $(id), is = at.includes(id);
-    if (is && $('inner').contains(field)) $('inner').open = true;
-    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
-      is ? field.setAttribute(name, value) : field.removeAttribute(name);
-    }
-  }
 }

@@ -1,7 +1,7 @@
 // Files: a scene, a trace, several traces. How a trace is read, and what is made of it.
 
 import { html, nothing, render } from 'lit-html';
-import { $ } from './dom.js';
+import { $, choice } from './dom.js';
 import { change, model, tell } from './model.js';
 import { taken } from './numbers.js';
 import { units as UNITS } from 'presets';
@@ -36,15 +36,7 @@ export function startTraces() {
     tell({ note: { words: `${words}: stopped.` } });
   };
   for (const type of ['dragover', 'drop']) addEventListener(type, (event) => event.preventDefault());
-  let depth = 0;
-  const shows = (by) => ($('drop').hidden = (depth = Math.max(0, depth + by)) === 0);
-  addEventListener('dragenter', () => shows(1));
-  addEventListener('dragleave', () => shows(-1));
-  addEventListener('drop', (event) => {
-    depth = 0;
-    shows(0);
-    bring(event.dataTransfer.files);
-  });
+  addEventListener('drop', (event) => bring(event.dataTransfer.files));
 }
 
 /** Opens files: a scene; a trace, which is fitted; several traces, of which a table is made. */
@@ -146,7 +138,7 @@ function withFit(scene, triggers, name, fit, isSame, isSameReading) {
   if (trigger_times) {
     fresh.own = inUnit({ ...found, own: { open_start, trigger_times } }, unit).own;
     for (const key of LAMP) fresh.flashes[key] = null;
-  } else if (!fit.explained) fresh.untold = 'no curve explains this trace, and its own triggers could not be told';
+  }
   return fresh;
 }
 
@@ -185,17 +177,14 @@ function panel(shown, trace, pending, isHand) {
     return note('Open or drop a trace: the CSV of an oscilloscope or a shutter tester, or the WAV of a sound card. The '
       + 'simplest curve that serves is fitted to it. Several make a table of speeds. Nothing leaves this page.');
   }
-  const { file, measured, fit } = shown;
+  const { fit } = shown;
   const another = () => press('Open another file …', () => $('file').click());
   const head = pending
     ? [html`<p class="wrong" tabindex="-1">${pending.name}: ${pending.words} ${leads(pending.mend) ?? another()}</p>`,
       trace ? note(`The trace of ${trace.name} stays on the graph.`) : nothing]
     : html`<p class="buttons">${fit.warnings.map(({ remedy }) => leads(remedy))}</p>`;
   return html`${head}
-    <details id="reading"><summary>How the file is read</summary>
-      ${previewTable(measured)}
-      ${file ? readingForm(shown) : note('To read it otherwise, open the file again.')}
-    </details>
+    <details id="reading"><summary>How the file is read</summary>${readingForm(shown)}</details>
     ${fit && !isHand ? html`<details id="report"><summary>The whole report</summary>
       <pre tabindex="0">${fit.report}</pre></details>` : nothing}
     <span class="buttons">
@@ -208,20 +197,6 @@ export const leads = (mend) => MEND[mend] && press(MEND[mend], () => {
   $('reading').open = true;
   $('reading').querySelector(`[name=${mend}]`)?.focus();
 });
-
-// The first rows of the file, with what each column is taken for.
-function previewTable({ names, rows, read }) {
-  const roles = { light: read?.signal, sync: read?.sync, time: read?.time };
-  const role = (i) => Object.keys(roles).find((name) => roles[name]?.[0] === i + 1);
-  const told = (i) => (role(i) ? html`<small> ${role(i)}</small>` : nothing);
-  const head = (name, i) =>
-    html`<th scope="col" class=${role(i) ? 'read' : ''}>${name ?? `column ${i + 1}`}${told(i)}</th>`;
-  const row = ([line, fields]) => html`<tr><td>${line}</td>
-    ${names.map((_, i) => html`<td>${fields[i] ?? ''}</td>`)}</tr>`;
-  return html`<div class="scroll" tabindex="0" role="region" aria-label="The first lines of the file">
-    <table class="preview" role="table"><thead><tr><th scope="col">line</th>${names.map(head)}</tr></thead>
-    <tbody>${rows.map(row)}</tbody></table></div>`;
-}
 
 // The whole record, in the file's own time, with the window that counts; `take(from, to)` takes another, in seconds.
 function drawRecord(record, { from, to }, unit, take) {
@@ -263,13 +238,9 @@ function readingForm({ file, asked, record, measured: { names, read }, fit }) {
   // What was chosen before may still be read.
   let wanted = asked;
   const again = (changes) => readTrace(file, (wanted = { ...wanted, ...changes }));
-  const choice = (words, name, options, value, change) => {
-    const changed = ({ target }) => again(change(target.value, target.closest('fieldset')));
-    const is = (of) => String(of) === String(value);
-    const option = ([of, words]) => html`<option value=${of} ?selected=${is(of)}>${words}</option>`;
-    return html`<label>${words}<select name=${name} .value=${String(value)} @change=${changed}>
-      ${options.map(option)}</select></label>`;
-  };
+  const chosen = (words, name, options, value, change) => choice(words, {
+    name, options, value, changed: ({ target }) => again(change(target.value, target.closest('fieldset'))),
+  });
   // What counts of the trace is told in the unit of its times.
   const unit = asked.unit ?? read?.clock.unit ?? 's';
   const number = (words, name, kind, value, placeholder, per = 1) => {
@@ -291,19 +262,19 @@ function readingForm({ file, asked, record, measured: { names, read }, fit }) {
   const frames = Array.from({ length: pulses }, (_, i) => [i + 1, `${i + 1} of ${all ?? '?'}`]);
   return html`${drawRecord(record, asked, unit, (from, to) => again({ from, to }))}
     <fieldset class="reading"><legend class="sr">How the file is read</legend>
-    ${count ? [choice('time', 'time', [['', 'none: by the rate'], ...columns], time, both),
-      choice('light', 'columns', columns, signal, both),
-      choice('sync', 'sync', [['', 'none'], ...columns], asked.sync ?? '', (it) => ({ sync: Number(it) || null }))]
+    ${count ? [chosen('time', 'time', [['', 'none: by the rate'], ...columns], time, both),
+      chosen('light', 'columns', columns, signal, both),
+      chosen('sync', 'sync', [['', 'none'], ...columns], asked.sync ?? '', (it) => ({ sync: Number(it) || null }))]
       : nothing}
-    ${choice('unit of the time', 'unit', [['', 'as the file says'], ...UNITS.map((unit) => [unit, unit])],
+    ${chosen('unit of the time', 'unit', [['', 'as the file says'], ...UNITS.map((unit) => [unit, unit])],
       asked.unit ?? '', (unit) => ({ unit: unit || null, rate: null }))}
     ${number('samples a second', 'rate', 'rate', rate, 'by the times')}
-    ${choice('in light the signal', 'light', [['auto', way], ['up', 'rises'], ['down', 'falls']], asked.light ?? 'auto',
+    ${chosen('in light the signal', 'light', [['auto', way], ['up', 'rises'], ['down', 'falls']], asked.light ?? 'auto',
       (light) => ({ light }))}
     ${number(`from, ${unit}`, 'from', 'time', asked.from, 'the beginning', perSecond(unit))}
     ${number(`to, ${unit}`, 'to', 'time', asked.to, 'the end', perSecond(unit))}
     ${number('signal of full light', 'full', 'part', asked.full, 'the peak')}
     ${all > 1 || asked.frame
-      ? choice('pulse', 'frame', frames, asked.frame ?? fit.pulse, (it) => ({ frame: Number(it) })) : nothing}
+      ? chosen('pulse', 'frame', frames, asked.frame ?? fit.pulse, (it) => ({ frame: Number(it) })) : nothing}
   </fieldset>`;
 }

@@ -27,16 +27,16 @@ function ask(scene, answer, failed) {
 }
 
 /** Has a scene a curve? */
-export const allowed = (scene) => ask(scene, (question) => question.has_curve(), () => false);
+export const allowed = (scene) => ask(scene, (question) => Boolean(question.curve()), () => false);
 
 /** All that is drawn of a scene, as `{ Ok }` or `{ Err }`; its times are in seconds, and counted as the scene's are. */
 export const viewOf = (scene) => ask(scene, (question) => {
-  const view = question.view(), shown = copied(view, originSeconds(scene));
+  const view = question.view(), shown = copied(view, originSeconds(scene), question.curve());
   view.free();
   return shown;
 }, ({ message }) => ({ Err: { reason: `this could not be computed (${message})` } }));
 
-function copied(view, origin) {
+function copied(view, origin, curve) {
   const tuples = (list, n) => Array.from({ length: list.length / n }, (_, i) => [...list.slice(n * i, n * (i + 1))]);
   const later = (list, n) => tuples(list, n).map(([t, ...rest]) => [t - origin, ...rest]);
   const wrong = view.wrong === undefined ? null : { Err: { key: view.wrong, inner: [...view.inner] } };
@@ -53,7 +53,7 @@ function copied(view, origin) {
     Ok: {
       times, ramps: [points.slice(0, 4), points.slice(4)], cdf: later(view.cdf, 2),
       edges: later(view.edges, 1).flat(), marks: later(view.marks, 3),
-      plan: wrong ?? { Ok: { ticks, pulses, early, delay, hz } },
+      openness: (time) => curve.openness(time + origin), plan: wrong ?? { Ok: { ticks, pulses, early, delay, hz } },
     },
   };
 }

@@ -12,4 +12,4 @@ async function answer({ kind, words, payload }) {
 }
 
 onmessage = ({ data }) =>
-  answer(data).then((answer) => postMessage({ answer }), (fault) => postMessage({ failed: fault.message }));
+  answer(data).then((answer) => postMessage({ answer }), reportError);

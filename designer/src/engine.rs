@@ -89,9 +89,9 @@ impl Question {
         set!(key = is(word); shutter.unit flashes.unit flashes.set_up);
     }
 
-    /// Has the scene a curve?
-    pub fn has_curve(&self) -> bool {
-        self.curve().is_some()
+    /// The scene's curve, if it has one.
+    pub fn curve(&self) -> Option<Curve> {
+        Some(Curve(self.shape()?.1))
     }
 
     /// All that is drawn of it.
@@ -105,8 +105,20 @@ impl Question {
     }
 }
 
+/// A curve.
+#[wasm_bindgen]
+pub struct Curve(ShutterCurve);
+
+#[wasm_bindgen]
+impl Curve {
+    /// The openness at a time.
+    pub fn openness(&self, time: f64) -> f64 {
+        self.0.openness(time as f32).into()
+    }
+}
+
 impl Question {
-    fn curve(&self) -> Option<(Shape, ShutterCurve)> {
+    fn shape(&self) -> Option<(Shape, ShutterCurve)> {
         let shape = Shape::new(&self.scene.shutter).ok()?;
         Some((shape, shape.curve().ok()?))
     }
@@ -124,7 +136,7 @@ impl Question {
 
     fn show(&self, view: &mut View) -> Result<(), Fault> {
         let plan = self.plan();
-        let Some((shape, curve)) = self.curve() else { return plan.map(drop) };
+        let Some((shape, curve)) = self.shape() else { return plan.map(drop) };
         let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
         let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
         let points = ramps(&shape).map(|ramp| ramp.points());

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use shutter_fit::delay::Sync;
 use shutter_fit::fact::{Fact, Message};
-use shutter_fit::trace::{self, Column, Light, Preview, Reading, Recording, Refusal, Tell, Trace};
+use shutter_fit::trace::{self, Column, Light, Reading, Recording, Refusal, Tell, Trace};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Fit, From, Options, report, speed};
 use shutter_plan::fitted::{curve_shutter, shutter};
@@ -11,8 +11,6 @@ use shutter_plan::scene::Shutter;
 
 /// More samples are drawn as the least and the greatest of neighbours.
 const MOST: usize = 2000;
-/// The first rows of a file that are shown.
-const ROWS: usize = 6;
 
 /// How a file is to be read, and what of it is to be fitted; what is left out is the file's own.
 #[derive(Default, Deserialize)]
@@ -36,11 +34,10 @@ pub struct Asked {
     triggers: u32,
 }
 
-/// A trace: what its file begins with, how it was read, and its fit or what is in the way of that.
+/// A trace: what its columns are called, how it was read, and its fit or what is in the way of that.
 #[derive(Serialize)]
 pub struct Measured {
-    #[serde(flatten)]
-    preview: Preview,
+    names: Vec<Option<String>>,
     read: Option<Reading>,
     /// The whole record, as (seconds of the file, signal).
     raw: Vec<[f64; 2]>,
@@ -65,7 +62,6 @@ struct Fitted {
     /// By what share the exposures of all pulses differ.
     scatter: f64,
     light_lowers: bool,
-    explained: bool,
     rms: f64,
     /// Each with its standard error.
     triggers: Vec<(f64, f64)>,
@@ -76,7 +72,7 @@ struct Fitted {
 
 /// Reads the trace in `bytes`, and fits it.
 pub fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Measured {
-    let preview = trace::preview(&bytes, ROWS).unwrap_or_default();
+    let names = trace::columns(&bytes).unwrap_or_default();
     let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
     let options = trace::Options {
         unit: asked.unit,
@@ -98,7 +94,7 @@ pub fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn Fn
     let fit = recording
         .and_then(|recording| fitted(name, recording, asked, progress))
         .map_err(|it| refusal(&it, asked.light != Light::Auto));
-    Measured { preview, read, raw, fit }
+    Measured { names, read, raw, fit }
 }
 
 fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Fitted, Refusal> {
@@ -131,7 +127,6 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         pulse: fit.frames.fitted,
         scatter: fit.frames.scatter,
         light_lowers: fit.inverted,
-        explained: fit.test.explained,
         rms: fit.best().rms,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
         warnings: fit.warnings.iter().map(Tell::message).collect(),

@@ -99,25 +99,14 @@ fn remedies(scene: &Scene) -> Vec<(String, Flashes)> {
         *(if fewer(middle).is_some() { &mut low } else { &mut high }) = middle;
     }
     let few = format!("Use {low} flash{}", if low > 1 { "es" } else { "" });
-    let without_length = |flashes: &mut Flashes| {
+    let plain = |flashes: &mut Flashes| {
         *flashes = Flashes { pulse: None, duty: None, min_pulse: None, fully_open: None, ..*flashes }
-    };
-    let plain = match scene.flashes.fully_open {
-        Some(true) => "Flash while it opens and closes as well",
-        _ => "Use flashes without a length",
     };
     let all = [
         (few, fewer(low).filter(|_| low > 0)),
         ("Ask for no gap".into(), with(&|flashes| flashes.min_gap = Some(0.0))),
         ("Take a timer of 32 bits".into(), with(&|flashes| flashes.timer_bits = None)),
-        (
-            "Flash while it is fully open".into(),
-            with(&|flashes| {
-                without_length(flashes);
-                flashes.fully_open = Some(true);
-            }),
-        ),
-        (plain.into(), with(&without_length)),
+        ("Use plain flashes".into(), with(&plain)),
     ];
     all.into_iter().filter_map(|(words, flashes)| Some((words, flashes?))).collect()
 }

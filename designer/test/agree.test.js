@@ -1,4 +1,4 @@
-// The program and the page say the same: of 100 random scenes, and of 13 traces, misfits among them.
+// The program and the page say the same: of 100 random scenes, and of 14 traces, misfits among them.
 
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -102,6 +102,8 @@ const TRACES = {
   // A contact that bounces once: the scene has how long no other edge counts.
   sync: () => synced().replace(/^(0.00205\d*,.*),.*$/gm, '$1,3.3'),
   bounce: () => bouncing(),
+  // Too little dark beside the pulse: no curve explains it, and its own triggers cannot be told.
+  short: () => trace({ from: 0.2, samples: 930, noise: 0.002, more: (t) => sine(t, 3, 4.4, -0.2) }),
   dip: () => trace({ noise: 0.002, more: (t) => sine(t, 3, 4.4, -0.2) }),
   double: () => trace({ noise: 0.002, more: (t) => sine(t, 9.5, 9.9, 0.35) + sine(t, 10.2, 10.5, 0.15), seed: 9 }),
 };
@@ -111,7 +113,7 @@ const TYPED = { set_up: 'emulated', timer_hz: '1000000', min_gap: '0' };
 const byHand = (text) => Object.entries(TYPED).reduce((text, [key, value]) => text
   .replace(new RegExp(`(^# ${key} = .*\n)+`, 'm'), `${key} = ${/^\d/.test(value) ? value : `"${value}"`}\n`), text);
 
-test('13 traces are fitted, and taken away, as the program does', { timeout: 600_000 }, async () => {
+test('14 traces are fitted, and taken away, as the program does', { timeout: 600_000 }, async () => {
   let misfits = 0;
   for (const [name, make] of Object.entries(TRACES)) {
     await open('');
@@ -140,6 +142,6 @@ test('13 traces are fitted, and taken away, as the program does', { timeout: 600
       assert.equal(await copied(form), shutter('plan', out, '--emit', form), `${name} ${form}`);
     }
   }
-  console.log(`${misfits} of 13 traces are misfits`);
+  console.log(`${misfits} of 14 traces are misfits`);
   assert.ok(misfits >= 2 && misfits <= 6);
 });

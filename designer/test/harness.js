@@ -195,15 +195,6 @@ export async function planned(form = 'json', name = 'copied') {
   return shutter('plan', file, '--emit', form);
 }
 
-/** What the file is called that an action saves. */
-export async function saved(act) {
-  const session = await page.createCDPSession(), to = { behavior: 'allow', downloadPath: scratch, eventsEnabled: true };
-  await session.send('Browser.setDownloadBehavior', to);
-  const begun = once(session, 'Browser.downloadWillBegin');
-  await act();
-  return (await begun)[0].suggestedFilename;
-}
-
 /** What stands in the rows of a table. */
 export const rows = (sel) =>
   page.$$eval(`${sel} tr`, (all) => all.map((row) => [...row.children].map((it) => it.textContent)));
@@ -258,7 +249,7 @@ export async function fill(values) {
 export async function see(wanted) {
   for (const [key, is] of Object.entries(wanted)) {
     const [, not, what] = /^(!?)(.*)$/.exec(key), isElement = /^[#.[]/.test(what);
-    if (typeof is === 'boolean') assert.equal(await page.isSeen(what), is, what);
+    if (typeof is === 'boolean') assert.equal(await told().then(() => page.isSeen(what)), is, what);
     else {
       const all = { facts, problem }, ask = all[what] ?? (() => isElement ? page.text(what) : page.value(`#${what}`));
       const text = await ask();

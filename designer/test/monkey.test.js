@@ -46,7 +46,7 @@ async function play({ seed, count }) {
   };
   const key = (target, key, more) =>
     target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, ...more }));
-  const numbers = designer.FIELDS.filter((id) => !$(id).labels[0].dataset.lamp);
+  const numbers = designer.FIELDS.filter((id) => !['pulse', 'duty', 'min_pulse'].includes(id));
   const values = [
     '1', '2,5', '0.3', '7', '-1', '1,000', '', 'x', '12', '12.5', '1e6', '1e300', '1/125', '16', '12 000 us', '0', '40',
     '32.768 kHz',

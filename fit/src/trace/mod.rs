@@ -26,7 +26,7 @@ pub use edges::Switch;
 pub(crate) use edges::{Edge, Edges, Starts, edges};
 pub(crate) use pulse::QUARTERS;
 pub use pulse::{Crossings, Frame, Light, Pulses, pulses};
-pub use read::{Preview, open, preview};
+pub use read::{columns, open};
 pub use reading::{Clock, Reading, Recording, Told};
 pub use samples::Trace;
 pub(crate) use samples::{least_step, median, sampling_interval};

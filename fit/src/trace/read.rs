@@ -3,8 +3,6 @@
 //! What oscilloscopes, logic analysers and shutter testers write differs in the delimiter, the decimal mark and what
 //! stands above the numbers; all of that is read off the file itself.
 
-use serde::Serialize;
-
 use super::asked::Options;
 use super::bytes::decode;
 use super::layout::{Layout, sound};
@@ -85,28 +83,15 @@ fn column(
     Ok((samples, Some(Warning::BrokenRows { count, line, reason })))
 }
 
-/// What a file begins with, so that whoever reads it can say which column is which.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Preview {
-    /// The columns' names, as far as they have some; there are as many as columns.
-    pub names: Vec<Option<String>>,
-    /// The first rows of numbers as they are written, each with its line.
-    pub rows: Vec<(u64, Vec<String>)>,
-}
-
-/// The first rows of the table in a file's bytes, so many of them; none of a WAV, which has no lines.
+/// The names of the columns in a file's bytes, as far as they have some; none of a WAV's channels.
 ///
 /// # Errors
 /// What is no table of numbers.
-pub fn preview(bytes: &[u8], rows: usize) -> Result<Preview, Refusal> {
+pub fn columns(bytes: &[u8]) -> Result<Vec<Option<String>>, Refusal> {
     if wav::is_wav(bytes) {
-        return Ok(Preview::default());
+        return Ok(Vec::new());
     }
     let text = decode(bytes)?;
-    let table = Table::new(&text)?;
-    // Of a field, what a narrow column can show.
-    let field = |field: &str| field.chars().take(24).collect();
-    let rows = table.rows().take(rows);
-    let rows = rows.map(|row| (row.number, table.form.split(row.text).take(table.heads.width).map(field).collect()));
-    Ok(Preview { names: (0..table.heads.width).map(|k| table.heads.name(k)).collect(), rows: rows.collect() })
+    let heads = Table::new(&text)?.heads;
+    Ok((0..heads.width).map(|k| heads.name(k)).collect())
 }
