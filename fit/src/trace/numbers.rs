@@ -89,8 +89,8 @@ impl Form {
     }
 }
 
-/// The seconds since midnight of a time of day, as `14:06:09.25` or `2026-01-30T14:06:09.25Z`. Which day it is does not
-/// count: so far from 0, `f64` would not hold a nanosecond.
+/// The seconds since midnight in UTC of a time of day, as `14:06:09.25` or `2026-01-30T14:06:09.25+01:00`. Which day
+/// it is does not count: so far from 0, `f64` would not hold a nanosecond.
 pub fn time_of_day(field: &str) -> Option<f64> {
     let field = field.trim_matches(['[', ']']);
     let is_date = |text: &str| text.starts_with(|c: char| c.is_ascii_digit()) && !text.contains([':', ' ']);
@@ -99,15 +99,16 @@ pub fn time_of_day(field: &str) -> Option<f64> {
         None => field,
     };
     let (clock, zone) = clock.split_at(clock.find(['+', '-', 'Z']).unwrap_or(clock.len()));
-    if zone.contains(|c: char| !c.is_ascii_digit() && !"+-:Z".contains(c)) {
-        return None;
-    }
+    // Its clocks are ahead by so many hours and minutes: `+01:00`, `-0530`, `+01`, or none.
+    let zone = zone.replace([':', 'Z'], "");
+    let ahead: i16 = if zone.is_empty() { 0 } else { format!("{zone:0<5}").parse().ok()? };
+    let ahead = f64::from(60 * (ahead / 100) + ahead % 100);
     let mut parts = clock.split(':');
     let mut whole = |end: u8| parts.next()?.parse().ok().filter(|part: &u8| *part < end);
     let (hours, minutes) = (whole(24)?, whole(60)?);
     let seconds = parts.next().filter(|text| text.starts_with(|c: char| c.is_ascii_digit()))?;
     let seconds: f64 = seconds.replacen(',', ".", 1).parse().ok().filter(|seconds| *seconds < 61.0)?;
-    parts.next().is_none().then(|| 60.0 * (60.0 * f64::from(hours) + f64::from(minutes)) + seconds)
+    parts.next().is_none().then(|| 60.0 * (60.0 * f64::from(hours) + f64::from(minutes) - ahead) + seconds)
 }
 
 /// A time of day counted on from the last one: if it runs back by half a day, it is the next day's.

@@ -337,13 +337,13 @@ fn a_list_of_changes_is_read_as_light_and_as_sync() {
     assert_eq!((fit.frames.count, fit.chosen), (2, Kind::Box));
     assert!((fit.exposure.value - 0.0062).abs() < 1e-5, "{:?}", fit.exposure);
     assert!((fit.delay.unwrap().mean() - 0.0031).abs() < 1e-5);
-    // A value may be unknown, the last row cut, the times those of days.
+    // A value may be unknown, the last row cut, the times those of days, in zones that change.
     for list in [
         "Time [s],Channel 0\n0.0,0\n0.7,1\n0.7625,0\n",
         "Time [s],A\n0,X\n0.7,1\n0.7625,0\n1,1\n1.0625,0\n2.7,1\n2.7625,0\n3.",
         "Time [s],A,B\n0,0,0\n0.6,0,1\n0.7,1,1\n0.73,1,0\n0.7625,0,0\n1.2",
         "Time [s],A\n0,0\n0.7,1\n0.7625,0\n1,1\n1.0625,X\n1.9,1\n1.9625,0\n2.7,1\n2.7625,0\n3.2,1\n3.2625,0\n0.",
-        "t,A\n2025-12-31T23:59:59.9Z,0\n2026-01-01T00:00:00Z,1\n2026-01-01T00:00:00.062500000Z,0\n",
+        "t,A\n2025-12-31T23:59:59.9Z,0\n2026-01-01T01:00:00+01:00,1\n2025-12-31T18:30:00.062500000-0530,0\n",
     ] {
         assert_eq!(fitted(list, None, 0.0625, 1e-3).2[0], "changes", "{list}");
     }
