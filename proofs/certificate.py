@@ -44,15 +44,14 @@ proven(f"R times the openness has degree {n}, and a FACTOR is 1 / cos({n} pi / 2
        # A degree of 50 would not do.
        abs(FACTOR[2] * cosine((n - 1) / POINTS) - 1) > 2**16 * U)
 # Samples are off their points, and so is a sample by Markov: max |p| <= F (seen + off n^2 max |p|). Roundings of 2^-24:
-# a sample's two words and their sum, its product with a weight, the sum with the noise, two by SLACK and FACTOR, and
-# what FACTOR is off. The noise has 14 of its own, at most.
+# a sample's two words and their sum, its product with a weight, which has two of its own, the sum with the noise, that
+# by FACTOR, and what FACTOR is off. The noise has at most 14 of its own; and at most 20 more lead to a bound's limit.
 spoilt = (1 / (1 - exact[2] * off * n**2) - 1) / U
-roundings = spoilt + max(2 + 1, 14) + 1 + 2 + factor_off
-slack = lambda more: (1 + more) * (1 - U) ** (int(roundings) + 1) >= 1
-more = constant("SLACK") - 1
-proven(f"SLACK has {float(more / U):g} roundings of 2^-24: samples off their points make a bound too small by "
-       f"{float(spoilt):.1f}, and what rounds it by {float(roundings - spoilt):g}",
-       slack(more) and not slack(more / 8))
+roundings = spoilt + max(2 + 1 + 2, 14) + 1 + 1 + factor_off + 20
+room = lambda share: (1 + share) * (1 - U) ** (int(roundings) + 1) >= 1
+proven(f"a bound over its limit is too small by less than 2^-16, {float(BOUND_OFF / U):g} roundings of 2^-24: by "
+       f"{float(spoilt):.1f}, as samples are off their points, and by {float(roundings - spoilt):g} roundings",
+       room(BOUND_OFF) and not room(BOUND_OFF / 8))
 
 # --- What samples lose in integers: a coefficient less than a unit as it is cut, and so each product as it is rounded
 # down; |s| is at most 1, so nothing that is lost grows.
@@ -65,11 +64,9 @@ proven(f"samples in integers: a time is off by at most SAMPLE_OFF = 2^{log2(lost
        constant("SAMPLE_OFF") == lost and position <= allowed < Fraction(1001, 2000),
        7 * (2**60 + 1) < 2**63 and ONE == 2**30)
 # A weight by Horner's rule, for each coefficient: products, sums, and the place, rounded, in each product; and its own.
-HORNER = [2 * k + min(k + 1, 3) for k in range(4)]
-weight_off = (exact[2] * max(HORNER) + 1) * Fraction(1001, 1000) * U
-proven(f"what rounds the openness at a sample is at most {float(weight_off / U):.1f} roundings of its coefficients "
-       "without signs, in a bound: within WEIGHT_OFF",
-       weight_off <= constant("WEIGHT_OFF") < 8 * weight_off)
+# The constant is at most the weight and the others: so its two are two of the weight, and two of each other.
+HORNER = [2 * k + min(k + 1, 3) + 1 for k in range(4)]
+weight_off = max(Fraction(HORNER[k] + HORNER[0], k) for k in (1, 2, 3)) * Fraction(1001, 1000) * U
 
 # --- What a fraction and a time may be off by, with 60 and 9 roundings of an f64, as many as were counted.
 join_off, fraction_off, time_off = (constant(f"{name}_OFF") for name in ("JOIN", "FRACTION", "TIME"))
@@ -78,9 +75,6 @@ proven(f"60 roundings of an f64 in terms {MASS_TERMS} times as great are at most
        MASS_TERMS * 60 * U64 <= fraction_off < 8 * MASS_TERMS * 60 * U64,
        TIME_TERMS * 9 * U64 <= time_off < 2 * TIME_TERMS * 9 * U64)
 least, ulp_error = constant("LEAST_TOP") / 2, constant("ULP_ERROR")
-is_less = lambda begin: ulp_error * begin / 2**23 > Fraction(3, 2) * (join_off + fraction_off * 2 * begin)
-proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a fraction may be off by, for each octave",
-       all(is_less(least * 2**i) for i in range(30)))
 # Joins, given the ramps' masses. A near share is a quotient, cut to 2^-62, and a double again; the far ramp begins
 # where its share is missing: the area has two roundings, and the quotient one of half of 2^-53.
 near, cut = 2 * U64, Fraction(1, 2**62)
@@ -96,20 +90,32 @@ size, inside = If(t2 < 0, -t2, t2), And(s >= -1, s <= 1)
 vertex, at_end = And(inside, 3 * t3 > size), t1 + 3 * t3 - 2 * size
 # Written without a quotient: thrice (t1 - t2^2 / thrice) = thrice t1 - t2^2.
 vertex_bound = lambda part: Implies(vertex, 3 * t3 * parabola(s) >= 3 * t3 * t1 - t2 * t2 * part)
-valid("slowest is at most the least t' on [-1, 1], where the vertex may be inside",
-      vertex_bound(1), vertex_bound(Q(99, 100)))
+valid("slowest is at most the least t' on [-1, 1], with its vertex there", vertex_bound(1), vertex_bound(Q(99, 100)))
 end_bound = lambda most, more: Implies(And(inside, most * t3 <= size), parabola(s) >= at_end + more)
-valid("and where it is not", end_bound(3, 0), end_bound(3, size / 100), end_bound(2, 0))
+valid("and without it", end_bound(3, 0), end_bound(3, size / 100), end_bound(2, 0))
 # From `start` to start + d the time is d t'(m) + t3 d^3 / 4 about the middle m, and t'(m) is not negative.
 m, end = start + d / 2, start + d
 passed = t1 * d + t2 * (end * end - start * start) + t3 * (end * end * end - start * start * start)
 about = d * parabola(m) + t3 * d * d * d / 4
 require(simplify(passed - about, som=True).eq(RealVal(0)), "the time about the middle")
 takes = lambda q: Implies(And(d > 0, d <= 2, parabola(m) >= 0), q * about >= t3 * d * d * d)
-valid("a stretch of length d takes at least t3 d^3 / 4, as t' is not negative in its middle",
-      takes(4), takes(Q(399, 100)))
-proven("slowest: its 8 roundings of 2^-24, each of at most all terms, are below the 2^-20 that are taken from it",
-       8 * U * Fraction(1001, 1000) < Fraction(1, 2**20) < 32 * U)
+valid("a way of d takes at least t3 d^3 / 4, as t' is not negative in its middle", takes(4), takes(Q(399, 100)))
+# On a way of d light grows beyond its first weight by `steepest` times the mean of s over the time that passes, `took`.
+# By parts that is d took - (integral of t ds), where t, since the start, is at least slowest s, and t3 s^3 / 4.
+run, took, slowest, part = Reals("run took slowest part")
+enough = And(took > 0, run > 0, d > 0, slowest * run >= took)
+mean = lambda most: Implies(enough, d * took - slowest * d * d / 2 <= most * run * took)
+valid("the mean of s on a way is at most half a run, where that is by slowest", mean(Q(1, 2)), mean(Q(49, 100)))
+# With d = 1, took = 1, and t3 / 4 a part of that.
+enough = And(part > 0, part <= 1, run > 0, part * run * run * run >= 1)
+mean = lambda most: Implies(enough, 1 - part / 4 <= most * run)
+valid("and at most 3/4, where it is by t3", mean(Q(3, 4)), mean(Q(74, 100)))
+# Coefficients of a sample's time are below 2^60 of its units. More than rounding adds took place, and s is at most 2.
+slow_off = 8 * U64 * (1 + 2 + 3) * 2 ** (60 - constant("TIME_BITS")) * 2 / constant("HALF_TRUNCATION")
+rest = (Fraction(1, 4) - slow_off) * constant("LEAST_RUN")
+proven(f"the rest of a run has room for 8 roundings of slowest, 2^{log2(slow_off):.1f} of what took place, and for the "
+       f"{float(weight_off / U):.2f} roundings of an openness at a sample; half of LEAST_RUN would not; on a run of 2 "
+       "they are four of it", rest / 2 < weight_off < rest and weight_off / 2 < 4 * U)
 
 # --- A way that leaves the ramp by its join, where the stretch does not reach that, has to collect what the stretch has
 # more than the part: 4 ulp, EPSILON of the power of two, of which the ends, the middle and its sum with the half lose a

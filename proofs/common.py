@@ -19,8 +19,8 @@ U64 = Fraction(1, 2**53)
 MASS_TERMS, TIME_TERMS = 512, 14
 LEAST_AREA = Fraction(1, 20)
 STEEPEST = 9
-# Of search.py: what a way is measured to, in fine units.
-WAY_OFF = 72
+# Of search.py: what a way is measured to, in fine units. Of certificate.py: what a bound is too small by, in itself.
+WAY_OFF, BOUND_OFF = 72, Fraction(1, 2**16)
 
 CONSTANTS = {}
 for path in sorted(SRC.rglob("*.rs")):

@@ -29,10 +29,6 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
 /// `s = 1`, where `s` counts 2⁻³⁰.
 const S_ONE: f32 = (1 << 30) as f32;
 
-/// More than what may make a bound too small: roundings of an `f32`, and samples off their points.
-// proofs/certificate.py
-const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
-
 /// A sample's position counts 2⁻²⁰ of a position's unit, its time 2⁻²⁴ of an lsb.
 pub(crate) const POSITION_BITS: i32 = 20;
 pub(crate) const TIME_BITS: i32 = 24;
@@ -96,6 +92,6 @@ pub(crate) const fn errors(
         in_exposure = if weighted > in_exposure { weighted } else { in_exposure };
         i += if all { 1 } else { 2 };
     }
-    let factor = SLACK * if all { FACTOR_OF_ALL } else { FACTOR_OF_HALF };
+    let factor = if all { FACTOR_OF_ALL } else { FACTOR_OF_HALF };
     ((in_time + noise[0]) * factor, (in_exposure + noise[1]) * factor)
 }

@@ -31,28 +31,26 @@ const MOST_OFFSET: f32 = 0.4999;
 /// (`proofs/domain.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// By how much rounding changes the openness at a sample, as a share of the sum of its coefficients without signs.
+/// The least `run` that is tried. A quarter of it is more than what rounds the openness at a sample.
 // proofs/certificate.py
-const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
-
-/// 1, less what single precision rounds.
-const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
+const LEAST_RUN: f32 = 1.0 / (1 << 19) as f32;
 
 /// Bounds of an octave's errors, each divided by its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ErrorOverLimit {
     /// In time. The limit is [`FORWARD_ERROR`] of [`Path::size_of_time`].
     pub(crate) forward: f32,
-    /// In exposure. The limit is [`ULP_ERROR`] ulp of where the span begins, less what fractions are off.
+    /// In exposure. The limit is [`ULP_ERROR`] ulp of where the span begins.
     pub(crate) backward: f32,
 }
 
 impl ErrorOverLimit {
     pub(crate) const REFUSED: Self = Self { forward: f32::INFINITY, backward: f32::INFINITY };
 
-    /// Are both below 1? Written so that a NaN fails.
+    /// Are both at most 1? Single precision may make them too small by 2⁻¹⁶, for which the limits have room
+    /// (proofs/certificate.py). Written so that a NaN fails.
     pub(crate) const fn are_certain(&self) -> bool {
-        self.forward <= CERTAIN && self.backward <= CERTAIN
+        self.forward <= 1.0 && self.backward <= 1.0
     }
 }
 
@@ -77,36 +75,34 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
     }
 
     // `rounding` is what rounding adds to an answer's error in time: Horner's rule, the side's end, and what the path
-    // is off by. `noise` is what a sample may be off by: `rounding`, as it is a rounded answer, too; SAMPLE_OFF; and
+    // is off by. `noise` is what a sample may be off by: Horner's rule, as it is a rounded answer, too; SAMPLE_OFF; and
     // half a position and 13 · 2⁻²⁰, with a margin (proofs/certificate.py). Both in lsb.
     let ends = [value(&stretch.time, -1.0), value(&stretch.time, 1.0)];
     let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
     let path_off = slope_bound_lsb * fraction_off / span.width + (ends[1] / lsb) as f32 * TIME_OFF;
     let rounding = truncation_lsb + path_off;
-    let noise = rounding + SAMPLE_OFF + 0.5002 * slope_bound_lsb * per_position as f32;
+    let noise = truncation_lsb + SAMPLE_OFF + 0.5002 * slope_bound_lsb * per_position as f32;
 
     // What an error of one lsb comes to, over the limits. In time: the least size is that of an end.
     let [first, last] = [path.size_of_time(ends[0]), path.size_of_time(ends[1])];
     let size = if first < last { first } else { last };
     let forward_per_lsb = lsb as f32 / size / FORWARD_ERROR;
     // In exposure: fully open it is `open_per_lsb`, and at an `s` the openness times that, the *weight*.
-    // No span begins below 2⁻²³, half of the least top, so the limit is above 0 (proofs/certificate.py).
-    let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
-    let open_per_lsb = lsb * curve.per_area / (ULP_ERROR * ulp - fraction_off) as f64;
+    let limit = ULP_ERROR * power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
+    let open_per_lsb = lsb * curve.per_area / limit as f64;
     let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, open_per_lsb);
     let most_weight = f3.abs() + f2.abs() + f1.abs() + f0.abs();
     // |f'| <= steepest
     let steepest = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
     // Beyond the join the shutter may be fully open.
     let goes_on = curve.join_time(path.ramp) != curve.end_time(path.ramp.other());
-    let beyond_per_lsb = if stretch.is_joined && goes_on { open_per_lsb as f32 } else { 0.0 };
 
-    // In lsb for a unit of `s`, most >= t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if
-    // that is inside, or at an end. Less 2⁻²⁰ of all terms, which is more than single precision rounds.
-    let [_, t1, t2, t3, ..] = singles(&time_lsb, 0.0, 1.0);
-    let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
+    // In lsb for a unit of `s`, t' >= slowest: the least of `t' = t1 + 2 t2 s + 3 t3 s²` is at its vertex, if that is
+    // inside, or at an end.
+    let [_, t1, t2, t3] = time_lsb;
+    let thrice = 3.0 * t3;
     let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
-    let slowest = slowest - most / (1 << 20) as f32;
+    let (slowest, t3) = (slowest as f32, t3 as f32);
 
     // Half of the points are mostly enough.
     let mut all = false;
@@ -118,17 +114,19 @@ pub(crate) const fn certificate(path: &Path, candidate: &Candidate, stretch: &St
         // whole stretch, 2. Time grows by at least `run slowest`. It also grows by at least `run³ t3 / 4`: about the
         // middle m of the run it is `run t'(m) + run³ t3 / 4`, and t' >= 0 (proofs/certificate.py). One of both is
         // enough. As it doubles, `run` may be twice too long.
-        let mut run = error / most;
+        let mut run = LEAST_RUN;
         while run < 2.0 && run * slowest < error && run * run * run * t3 < 4.0 * error {
             run *= 2.0;
         }
         // On the run the weight grows by `run steepest` at most. All this holds up to the stretch's end. So if the
         // bound is accepted, less than half an ulp of exposure is collected, and to that end there are more than two
         // ([`Span::half`]): `s` does not reach it, unless it is the join.
-        let on_ramp = exposure_error + (rounding + error * WEIGHT_OFF) * most_weight + error * run * steepest;
-        let beyond = error * beyond_per_lsb;
-        let backward = if beyond > on_ramp { beyond } else { on_ramp };
-        let bounds = ErrorOverLimit { forward: error * forward_per_lsb, backward };
+        let light = if stretch.is_joined && goes_on {
+            error * open_per_lsb as f32
+        } else {
+            exposure_error + rounding * most_weight + error * run * steepest
+        };
+        let bounds = ErrorOverLimit { forward: error * forward_per_lsb, backward: light + fraction_off / limit };
         if all || bounds.are_certain() {
             return bounds;
         }

@@ -159,6 +159,8 @@ fn direct_frames_are_large() {
         let last = frame.len() as u32 - 1;
         assert!(!frame.is_direct(0) || !frame.is_direct(last), "{} has more", one.name);
     }
+    // No top is below 2⁻²²: an octave from 2⁻²³ on would answer beside searches on a grid coarser than its ulp.
+    assert_eq!(shutter::<64>(&named("typical")[1].curve).direct_triggers(), 2_236_962);
     let least = (0..2000).map(|i| shutter::<8>(&random_typical(2024, i)).direct_triggers()).min();
     println!("random typical: at least {least:?}");
     assert!(least >= Some(64), "{least:?}");
