@@ -164,9 +164,10 @@ proven(f"cdf on a ramp: within {float(value + Fraction(1, 2)):.3f} ulp, of at le
 # two ends are cut to units, one over the area has three roundings, and the product, low by less than 3, counts twice.
 ks = range(int(log2(2**61 * constant("LEAST_INTERVAL") * LEAST_AREA)), 62)
 shifts, value = [61 - k + more for k in ks for more in (0, 1)], (2 * 2 * PER_FINE + 2 * 3 + JOIN) / TRACE
+beyond = max(value * TRACE + 4 * U64 * 2**62, CUTS)
 proven(f"cdf on the plateau: within {float(value + Fraction(1, 2)):.3f} such ulp; a way moves up by {min(shifts)} to "
-       f"{max(shifts)} bits, so that it has 62 at most",
-       min(shifts) == 0 and max(shifts) < 32 and value + 4 * U64 * 2**24 + Fraction(1, 2) < 1)
+       f"{max(shifts)} bits, so that it has 62 at most; no part has 2^{log2(beyond):.2f} units more than its share",
+       min(shifts) == 0 and max(shifts) < 32 and value + 4 * U64 * 2**24 + Fraction(1, 2) < 1 and beyond < TRACE / 2)
 
 # --- The first guess: bits taken as logarithms, and their quotients. 4 x R / 2^32 is x R / 2^30, linear in x.
 LOG_ONE, a, b = constant("LOG_ONE"), *BitVecs("a b", 32)

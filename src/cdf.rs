@@ -10,7 +10,7 @@
 //! at most an ulp (proofs/search.py).
 
 use crate::curve::Curve;
-use crate::fixed::{ONE, clamped, power_of_two, product, rounded};
+use crate::fixed::{ONE, power_of_two, product, rounded};
 use crate::fraction::Side::{self, End, Start};
 use crate::ramp::Ramp;
 
@@ -68,7 +68,7 @@ pub(crate) fn cdf(curve: &Curve, t: f32) -> f32 {
     }
     let mass = match on_ramp(curve, t) {
         Some(OnRamp { side, ramp, from, place }) => {
-            let mass = ramp.mass_at(from, place);
+            let mass = ramp.mass_since(from).at(place);
             let mass = if from.is_end() { ramp.whole - mass } else { mass };
             if side.is_end() { ONE - ramp.whole + mass } else { mass }
         }
@@ -79,10 +79,11 @@ pub(crate) fn cdf(curve: &Curve, t: f32) -> f32 {
             let way = curve.in_units(t) - curve.in_units(curve.join_time(Start));
             let (significand, up) = per_area(curve);
             let mass = product(way << ((up + curve.units.exponent() + 61) & 63), significand) << 1;
-            curve.ramp(Start).whole + clamped(mass, curve.plateau_mass())
+            curve.ramp(Start).whole + mass
         }
     };
-    rounded(mass, power_of_two(-30))
+    // Next to a dark start rounding may lead below 0.
+    rounded(if mass > 0 { mass } else { 0 }, power_of_two(-30))
 }
 
 /// `(significand, up)`: one over the area is `significand / 2⁶⁴ · 2^up`, from `2^(up - 1)` to `2^up`.

@@ -98,11 +98,6 @@ impl Ramp {
         (from, ways.solve(units.refined(way), (size >> TIME_SHIFT) + LEAST_WAY_ERROR).0)
     }
 
-    /// The mass between the end that faces a side and a place.
-    pub(crate) const fn mass_at(&self, side: Side, place: u64) -> i64 {
-        clamped(self.mass_since(side).at(place), self.whole)
-    }
-
     /// The openness, in 2⁻⁶⁰, at a place from the end that faces a side.
     pub(crate) const fn openness_at(&self, side: Side, place: u64) -> i64 {
         let [f0, f1, f2, f3] = self.openness;
