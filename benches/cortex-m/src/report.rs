@@ -48,7 +48,7 @@ Made by `benches/cortex-m/run.sh --write-docs`, with
 A call counts from its first instruction to its return. QEMU counts *instructions* exactly; a Cortex-M0+ and a
 riscv32imc compute floats in software. *Cycles* are modelled, within 10 % at zero wait states, probably 1 to 4 % low
 ([how the model was chosen](tried.md#the-model-of-cycles)). Two wait states without a cache cost up to 1.4 times as
-much. A density that is dark at both ends may need more steps than the worst call here.
+much. A density that is dim at both ends may need more steps than the worst call here.
 ",
         cycles = cycles(&m4f),
         instructions = instructions(&others.iter().collect::<Vec<_>>()),
