@@ -9,18 +9,18 @@ use std::ops::Range;
 
 use chart::plotters::prelude::*;
 use chart::plotters::style::text_anchor::{HPos, VPos};
-use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, INK, SCALE, SHARES, axes, pen};
+use chart::{Area, BLUE, Drawn, GREY, Graph, INK, LIGHT, SCALE, SHARES, pen};
 use shutter_curve::ShutterCurve;
-use shutter_fit::unit::{count, decimals, short, trimmed};
+use shutter_fit::unit::{count, short};
 
 use crate::report::axis;
-use drawing::{Key, MOST_MARKS, draw_marks, knob, lit, page};
+use drawing::{HANDLE, LAMP, MOST_MARKS, OPENNESS, TRIGGER, draw_marks, graph, page};
 use shutter_plan::lamp::{FullyOpen, Lamp, SetUp};
 use shutter_plan::plan::{Curve, Plan};
 pub use trace::trace;
 
 const SIZE: (i32, i32) = (900, 704);
-const OPENNESS: i32 = 330;
+const UPPER: i32 = 330;
 /// The points along a curve, or along all shares of it.
 const POINTS: usize = 800;
 /// The height of the ticks that stand for so many.
@@ -46,17 +46,11 @@ pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
             n => format!("{n} triggers, each in the middle of an equal share of the exposure"),
         },
     );
-    let mut keys = vec![("openness", Key::Line), ("trigger", Key::Dot)];
-    match plan.lamp {
-        Lamp::Triggered | Lamp::FullyOpen => (),
-        Lamp::Equal { .. } => keys.push(("lamp on", Key::Lamp)),
-        Lamp::Doses { .. } => keys.push(("lamp on: equal doses", Key::Lamp)),
-    }
-    if curve.shape.inner.is_some() {
-        keys.push(("control point and its handle", Key::Handle));
-    }
+    let mut keys = vec![OPENNESS, TRIGGER];
+    keys.extend(plan.lamp.has_pulses().then_some(LAMP));
+    keys.extend(curve.shape.inner.map(|_| HANDLE));
     page(SIZE, &title, [name, &facts], &keys, |page| {
-        let (upper, lower) = page.split_vertically(OPENNESS * SCALE);
+        let (upper, lower) = page.split_vertically(UPPER * SCALE);
         draw_openness(&upper, plan, curve)?;
         draw_cdf(&lower, plan, curve)
     })
@@ -71,7 +65,7 @@ fn draw_openness(area: &Area, plan: &Plan, Curve { shape, shutter: curve, .. }: 
     let (low, high) = heights.fold((0.0, 1.0), |(low, high): (f64, f64), y| (low.min(y), high.max(y)));
     let room = 0.05 * (high - low);
     let range = if low < 0.0 { low - room } else { 0.0 }..high + room;
-    let mut graph = graph(area, plan, "openness", None, range)?;
+    let mut graph = graph(area, (None, time_range(plan)), ("openness", range), 60)?;
     let n = plan.triggers.len();
     let edge = |i: usize| match plan.lamp {
         Lamp::FullyOpen => FullyOpen::new(curve).time(i as f64 / n as f64) as f32,
@@ -83,8 +77,9 @@ fn draw_openness(area: &Area, plan: &Plan, Curve { shape, shutter: curve, .. }: 
     let is_dimmed = matches!(plan.lamp, Lamp::Doses { .. }) || plan.scene.flashes.set_up == Some(SetUp::InPath);
     let lamp = |t: f32| if is_dimmed { at(t) } else { (time(t), 1.0) };
     let seconds = |ticks| (plan.start + plan.seconds(ticks)) as f32;
-    graph
-        .draw_series(plan.pulses().map(|(on, off)| Polygon::new(below(seconds(on), seconds(off), 16, lamp), lit())))?;
+    graph.draw_series(
+        plan.pulses().map(|(on, off)| Polygon::new(below(seconds(on), seconds(off), 16, lamp), LIGHT.filled())),
+    )?;
     draw_curve(&mut graph, plan, curve, |t| curve.openness(t))?;
     draw_sync(&mut graph, plan)?;
     let marks = plan.triggers.iter().map(|trigger| at(trigger.time as f32));
@@ -93,7 +88,7 @@ fn draw_openness(area: &Area, plan: &Plan, Curve { shape, shutter: curve, .. }: 
         let points = ramp.map(|(t, y)| (time(t), f64::from(y)));
         for [end, inner] in [[points[0], points[1]], [points[3], points[2]]] {
             graph.draw_series([PathElement::new([end, inner], pen(GREY, 2.0))])?;
-            graph.draw_series([end, inner].map(knob))?;
+            graph.draw_series([end, inner].map(|at| Circle::new(at, 5 * SCALE, pen(INK, 1.5))))?;
         }
     }
     Ok(())
@@ -126,10 +121,9 @@ fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
 
 fn draw_cdf(area: &Area, plan: &Plan, Curve { shutter: curve, .. }: &Curve) -> Drawn {
     let (unit, zero) = (plan.unit, plan.origin());
-    let time = axis(plan);
-    let y = "fraction of the exposure";
-    let mut graph = graph(area, plan, y, Some(&time), 0.0..1.05)?;
-    let left = time_range(plan).start;
+    let (name, range) = (axis(plan), time_range(plan));
+    let left = range.start;
+    let mut graph = graph(area, (Some(&name), range), ("fraction of the exposure", 0.0..1.05), 60)?;
     draw_curve(&mut graph, plan, curve, |t| curve.cdf(t))?;
     let marks = plan.triggers.iter().map(|mark| (unit.of(mark.time - zero), mark.u.unwrap_or_default().into()));
     // How a time is found: from the fraction to the curve, and down.
@@ -154,19 +148,6 @@ fn draw_curve(graph: &mut Graph, plan: &Plan, curve: &ShutterCurve, f: impl Fn(f
     let line = times.map(|t| (plan.unit.of(f64::from(t) - zero), f64::from(f(t))));
     graph.draw_series(LineSeries::new(line, pen(BLUE, 2.5)))?;
     Ok(())
-}
-
-/// An empty graph over the time of the plan.
-fn graph<'a, 'b>(
-    area: &'a Area<'b>,
-    plan: &Plan,
-    y: &str,
-    x: Option<&str>,
-    range: Range<f64>,
-) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
-    let places = decimals(plan.unit.of(plan.length), 3);
-    let time = Axis { range: time_range(plan), name: x, labels: 11, label: &|t| trimmed(*t, places) };
-    axes(area, time, Axis { range, name: Some(y), labels: 6, label: &|y| format!("{y:.1}") }, 60)
 }
 
 /// The axis of time: the interval, and a little room on either side. It begins or ends with the edge of the camera's

@@ -4,12 +4,12 @@ use std::error::Error;
 use std::ops::Range;
 
 use chart::plotters::prelude::*;
-use chart::{Area, Axis, BLUE, Drawn, GREY, Graph, SCALE, axes, pen};
+use chart::{Area, BLUE, Drawn, GREY, SCALE, pen};
 use shutter_fit::trace::Trace;
-use shutter_fit::unit::{decimals, short, trimmed};
+use shutter_fit::unit::short;
 use shutter_fit::{Fit, From};
 
-use super::drawing::{Key, draw_marks, page};
+use super::drawing::{FITTED, OWN_TRIGGER, TRACE, TRIGGER, draw_marks, graph, page};
 
 const SIZE: (i32, i32) = (900, 640);
 const SIGNAL: i32 = 340;
@@ -28,11 +28,7 @@ pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
         if fit.from == From::Trace { " by the trace" } else { "" },
         short(100.0 * fit.best().rms, 3),
     );
-    let trigger = match fit.from {
-        From::Model => "trigger",
-        From::Trace => "trigger by the trace",
-    };
-    let keys = [("trace", Key::Trace), ("fitted curve", Key::Line), (trigger, Key::Dot)];
+    let keys = [TRACE, FITTED, if fit.from == From::Model { TRIGGER } else { OWN_TRIGGER }];
     page(SIZE, &title, [name, &facts], &keys, |page| {
         let (upper, lower) = page.split_vertically(SIGNAL * SCALE);
         draw_signal(&upper, fit)?;
@@ -44,9 +40,9 @@ fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
     let (unit, sign) = (fit.unit(), if fit.inverted { -1.0 } else { 1.0 });
     let raw = samples(fit, |_, v| sign * v);
     let range = range(raw.iter().map(|(_, v)| *v), 0.06);
-    let mut graph = graph(area, fit, "signal", None, range)?;
-    graph.draw_series(LineSeries::new(raw, pen(GREY, 1.0)))?;
     let (first, last) = ends(fit);
+    let mut graph = graph(area, (None, unit.of(first)..unit.of(last)), ("signal", range), 72)?;
+    graph.draw_series(LineSeries::new(raw, pen(GREY, 1.0)))?;
     let at = |t: f64| (unit.of(t), sign * fit.value(t));
     // A box's edges are drawn as such: a point on either side of each.
     let curve = fit.best().signal.curve;
@@ -87,12 +83,11 @@ fn draw_residual(area: &Area, fit: &Fit) -> Drawn {
     sizes.sort_by(f64::total_cmp);
     let most = 1.4 * sizes[(sizes.len() - 1) * 99 / 100].max(1e-3);
     let time = format!("time ({})", unit.name());
-    let mut graph = graph(area, fit, "residual (% of the light)", Some(&time), -most..most)?;
+    let [first, last] = [ends(fit).0, ends(fit).1].map(|time| unit.of(time));
+    let mut graph = graph(area, (Some(&time), first..last), ("residual (% of the light)", -most..most), 72)?;
     let kept = missed.into_iter().map(|(t, m)| (t, m.clamp(-most, most)));
     graph.draw_series(LineSeries::new(kept, pen(GREY, 1.0)))?;
-    let (first, last) = ends(fit);
-    let none = [(unit.of(first), 0.0), (unit.of(last), 0.0)];
-    graph.draw_series([PathElement::new(none, pen(BLUE, 2.5))])?;
+    graph.draw_series([PathElement::new([(first, 0.0), (last, 0.0)], pen(BLUE, 2.5))])?;
     Ok(())
 }
 
@@ -123,18 +118,4 @@ fn range(values: impl Iterator<Item = f64>, room: f64) -> Range<f64> {
     let (low, high) = values.fold(ends, |(low, high), v| (low.min(v), high.max(v)));
     let room = room * (high - low);
     low - room..high + room
-}
-
-fn graph<'a, 'b>(
-    area: &'a Area<'b>,
-    fit: &Fit,
-    y: &str,
-    x: Option<&str>,
-    range: Range<f64>,
-) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
-    let (unit, (first, last)) = (fit.unit(), ends(fit));
-    let (across, up) = (decimals(unit.of(last - first), 3), decimals(range.end - range.start, 3));
-    let time = unit.of(first)..unit.of(last);
-    let time = Axis { range: time, name: x, labels: 11, label: &|t| trimmed(*t, across) };
-    axes(area, time, Axis { range, name: Some(y), labels: 6, label: &|y| trimmed(*y, up) }, 72)
 }

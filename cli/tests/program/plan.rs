@@ -45,13 +45,13 @@ fn the_picture_of_the_docs_is_as_it_is_drawn() {
     folder.run("plan --out curve.svg").well();
     let svg = folder.text("curve.svg");
     assert!(svg == fs::read_to_string(format!("{SCENES}/../../docs/curve.svg")).unwrap(), "docs/curve.svg is old");
-    // A share is shaded for each trigger. One dot on the openness, one on the cdf, one in the legend; eight control
-    // points and one in the legend, four handles and one.
+    // A share is shaded for each trigger, with a dot on the openness and one on the cdf; eight control points have four
+    // handles.
     for (mark, count) in [
         ("<polygon", 12),
-        (r##"r="32" opacity="1" fill="#D55E00""##, 12 + 12 + 1),
-        (r##"r="40" opacity="1" fill="none""##, 8 + 1),
-        (r##"stroke="#78818B" stroke-width="16""##, 4 + 1),
+        (r##"r="32" opacity="1" fill="#D55E00""##, 12 + 12),
+        (r##"r="40" opacity="1" fill="none""##, 8),
+        (r##"stroke="#78818B" stroke-width="16""##, 4),
     ] {
         assert_eq!(svg.matches(mark).count(), count, "{mark}");
     }
