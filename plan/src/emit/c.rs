@@ -1,7 +1,6 @@
 //! A plan as a header of C99 and C++11.
 
 use super::{Constant, Literal, MADE_BY, Module, Ticks, name, rows};
-use crate::scene::fnv;
 
 /// The header of a plan, its names those of the scene.
 pub fn header(module: &Module) -> String {
@@ -46,8 +45,7 @@ static inline {int} {lower}_due({int} edge, {int} ticks)
     );
     let from_edge = if *has_edge { from_edge } else { String::new() };
     let [common, own] = [&module.common, &module.own].map(|all| constants(all, &upper, module));
-    let body = format!("{INCLUDE}{common}{own}{arrays}{from_edge}");
-    format!("/*\n{head} */\n{}", guarded(&upper, &lower, &body))
+    format!("/*\n{head} */\n{INCLUDE}{common}{own}{arrays}{from_edge}")
 }
 
 /// The headers of several plans as one, and an array of them.
@@ -70,8 +68,14 @@ pub fn headers(called: &str, modules: &[Module]) -> String {
         format!("    {{\"{lower}\", {upper}_COUNT, {delay}{arrays}}},\n")
     };
     let (speeds, common) = (modules.iter().map(speed).collect::<String>(), constants(&one.common, &upper, one));
-    let body = format!(
-        "{INCLUDE}{common}#define {upper}_SPEEDS {n}
+    let headers: String = modules.iter().map(|module| header(module) + "\n").collect();
+    let shown = name::shown(called);
+    format!(
+        "/*
+ * {MADE_BY}: {shown}, a shutter of {n} speeds.
+ */
+
+{headers}{common}#define {upper}_SPEEDS {n}
 
 typedef struct {{
     const char *name;
@@ -82,14 +86,11 @@ typedef struct {{
 static const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{
 {speeds}}};
 "
-    );
-    let headers: String = modules.iter().map(|module| header(module) + "\n").collect();
-    // A name of its own, so that a scene may be called as the whole is.
-    let whole = guarded(&format!("{upper}_SPEEDS"), &lower, &body);
-    format!("/*\n * {MADE_BY}: {}, a shutter of {n} speeds.\n */\n\n{headers}{whole}", name::shown(called))
+    )
 }
 
-const INCLUDE: &str = "#include <stdint.h>\n\n";
+/// Another header of the same name does not compile beside it, rather than being left out in silence.
+const INCLUDE: &str = "#pragma once\n#include <stdint.h>\n\n";
 
 /// Constants, as macros.
 fn constants(all: &[Constant], upper: &str, module: &Module) -> String {
@@ -114,19 +115,4 @@ fn names(scene: &str) -> (String, String) {
     let lower = name::identifier(scene);
     let upper = lower.to_ascii_uppercase();
     (lower, upper)
-}
-
-/// The body, once; another one of the same name does not compile, rather than being left out in silence.
-fn guarded(upper: &str, lower: &str, body: &str) -> String {
-    let hash = format!("0x{:08X}U", fnv(body.bytes()));
-    format!(
-        "#ifndef {upper}_SCHEDULE_H
-#define {upper}_SCHEDULE_H {hash}
-
-{body}
-#elif {upper}_SCHEDULE_H != {hash}
-#error \"two different schedules are called {lower}: give one of them another name\"
-#endif
-"
-    )
 }
