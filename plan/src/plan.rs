@@ -1,6 +1,6 @@
 //! A scene's triggers, checked.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use shutter_curve::ShutterCurve;
 pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::Unit;
@@ -80,7 +80,7 @@ pub struct Plan {
 }
 
 /// A trigger under the keys that it has in all forms.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[expect(missing_docs, reason = "docs/firmware.md tells what they are")]
 pub struct Row {
     pub index: usize,
