@@ -2,7 +2,7 @@
 
 use super::asked::Options;
 use super::heads::Heads;
-use super::names::{Means, said};
+use super::names::{Means, said, unit_of};
 use super::numbers::{Cell, short_of};
 use super::reading::{Clock, Reading, Told};
 use super::samples::{LARGEST, median};
@@ -61,12 +61,8 @@ impl Layout {
         if let (Some(time), true) = (time, options.columns.len() < 2) {
             columns.only_times(time)?;
         }
-        let first = match (clock, time) {
-            (Clock::Rate(_), _) => settings.start,
-            (_, time) => time.filter(|k| table.is_clock(*k)).map(|_| 0.0),
-        };
-        // The numbers of samples that were left out count as well.
-        let from = time.filter(|_| first.is_some()).map_or(0.0, |k| table.first(k)[0]);
+        let first = settings.start.filter(|_| matches!(clock, Clock::Rate(_)));
+        let from = time.and_then(|k| table.first(k).first().copied()).unwrap_or(0.0);
         Ok(Self { time, clock, from, first, told, signals, sync })
     }
 
@@ -98,7 +94,7 @@ impl Layout {
 
 /// The number in a column, or what is wrong with it.
 pub fn sound(table: &Table, line: &Line, column: usize, what: &str) -> Result<f64, String> {
-    match table.cell(line, column) {
+    match line.cell(column) {
         Cell::Number(x) if x.is_finite() && x.abs() <= LARGEST => Ok(x),
         Cell::Number(x) => Err(format!("the {what} is {x:e}, and no finite number up to {LARGEST:e}")),
         Cell::Empty => Err(format!("the {what} is missing")),
@@ -156,7 +152,7 @@ impl Columns<'_> {
         if !asked.is_empty() {
             return Ok(asked.to_vec());
         }
-        let is_other = |k: &usize| Some(*k) != time && Some(*k) != sync && !self.table.is_clock(*k);
+        let is_other = |k: &usize| ![time, sync].contains(&Some(*k));
         let others: Vec<usize> = self.table.columns.iter().copied().filter(is_other).collect();
         if let (Some(sync), true) = (sync, others.is_empty()) {
             let reason = format!("beside column {} no other holds a signal", self.table.heads.quoted(sync));
@@ -255,8 +251,8 @@ impl Columns<'_> {
         if counts {
             return Err(Refusal::Counter { name: table.heads.quoted(k), quoted: settings.unread.clone() });
         }
-        if let Some(text) = table.number_and_unit(k) {
-            return Err(Refusal::NoPlainTimes { text });
+        if table.text_beside().is_some_and(|text| unit_of(text).is_some()) {
+            return Err(Refusal::NoPlainTimes { text: short_of(table.rows[0].text) });
         }
         match &settings.unit {
             Some((words, Unit::Second)) => in_unit(Unit::Second, Told::Header(words.clone())),

@@ -58,24 +58,21 @@ fn column(
     reading: impl Fn() -> String,
 ) -> Result<(Vec<Sample>, Option<Warning>), Refusal> {
     let (mut samples, mut broken) = (Vec::new(), Vec::new());
-    for (row, line) in table.rows().enumerate() {
-        let time = layout.time_of(table, row, line);
-        let is_empty = table.cell(line, k) == Cell::Empty;
-        match (time, sound(table, line, k, "value")) {
+    for (row, line) in table.rows.iter().enumerate() {
+        let (time, value) = (layout.time_of(table, row, line), sound(table, line, k, "value"));
+        match (time, value) {
+            // Nothing was recorded then.
+            (Ok(_), Err(_)) if line.cell(k) == Cell::Empty => (),
             (Ok(time), Ok(value)) => samples.push(Sample { time, value, line: line.number }),
             (time, value) => {
-                if let (Ok(time), true) = (&time, changes && !is_empty) {
-                    samples.push(Sample { time: *time, value: f64::NAN, line: line.number });
-                }
-                let reason = time.and(value).err().unwrap_or_default();
-                broken.push((line.number, reason, is_empty.then_some(samples.len())));
+                let unknown = time.as_ref().ok().filter(|_| changes);
+                samples.extend(unknown.map(|time| Sample { time: *time, value: f64::NAN, line: line.number }));
+                broken.push((line.number, time.and(value).err().unwrap_or_default()));
             }
         }
     }
-    // At an end of the column empty fields are no broken rows: it may have been recorded for a part of the times.
-    broken.retain(|(.., before)| before.is_none_or(|before| (1..samples.len()).contains(&before)));
     let count = broken.len();
-    let Some((line, reason, _)) = broken.into_iter().next() else { return Ok((samples, None)) };
+    let Some((line, reason)) = broken.into_iter().next() else { return Ok((samples, None)) };
     let rows = samples.len() + count;
     if count as f64 > BROKEN * rows as f64 {
         return Err(Refusal::BrokenRows { count, rows, line, reason, reading: reading() });

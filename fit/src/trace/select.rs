@@ -25,9 +25,8 @@ fn holds(samples: &Result<Samples, Refusal>) -> Holds {
     let Ok(samples) = samples else { return Holds::NoNumbers };
     let Ok(found) = pulses(&samples.trace, Light::Auto) else { return Holds::NoPulse };
     let noise = found.relative_noise();
-    let is_odd = found.bent;
     match has_ramps(&samples.trace, noise) {
-        _ if is_odd => Holds::Faint,
+        _ if found.bent => Holds::Faint,
         true => Holds::Light,
         false if noise > FAINT => Holds::Faint,
         false => Holds::Gate,

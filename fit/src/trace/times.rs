@@ -153,27 +153,14 @@ pub fn ordered(mut rows: Vec<Sample>, are_changes: bool, mut warnings: Vec<Warni
         warnings.push(Warning::StampedBlocks { rows, error });
         timing.each = error;
     }
-    let mut trace = Trace::default();
-    let (mut same, mut again) = (1.0, None);
-    let mut duplicates = 0;
-    for row in rows {
-        match trace.values.last_mut() {
-            Some(value) if trace.times.last() == Some(&row.time) => {
-                same += 1.0;
-                *value += (row.value - *value) / same;
-                duplicates += 1;
-                again.get_or_insert(row.line);
-            }
-            _ => {
-                same = 1.0;
-                trace.times.push(row.time);
-                trace.values.push(row.value);
-            }
-        }
+    let again = || rows.windows(2).filter(|pair| pair[0].time == pair[1].time);
+    if let Some(pair) = again().next() {
+        warnings.push(Warning::Duplicates { count: again().count(), line: pair[1].line });
     }
-    if let Some(line) = again {
-        warnings.push(Warning::Duplicates { count: duplicates, line });
-    }
+    let mean = |same: &[Sample]| same.iter().map(|row| row.value).sum::<f64>() / same.len() as f64;
+    let same = rows.chunk_by(|a, b| a.time == b.time);
+    let (times, values) = same.map(|same| (same[0].time, mean(same))).unzip();
+    let trace = Trace { times, values };
     Samples { trace, timing, warnings }
 }
 
@@ -181,14 +168,12 @@ pub fn ordered(mut rows: Vec<Sample>, are_changes: bool, mut warnings: Vec<Warni
 /// the last row cut.
 pub fn lists_changes(table: &Table, time: usize) -> bool {
     let others: Vec<usize> = table.columns.iter().copied().filter(|k| *k != time).collect();
-    let levels = |row| others.iter().map(|k| table.cell(row, *k)).collect::<Vec<Cell>>();
-    let rows: Vec<_> = table.rows().take(JUDGED).map(levels).collect();
-    let rows: Vec<_> = rows.into_iter().filter(|row| row.iter().any(|cell| *cell != Cell::Empty)).collect();
+    let levels = table.rows.iter().map(|row| others.iter().map(|k| row.cell(*k)).collect::<Vec<Cell>>());
+    let rows = levels.take(JUDGED).filter(|row| row.iter().any(|cell| *cell != Cell::Empty)).collect::<Vec<_>>();
     let is_switch = |k: usize| {
-        let mut levels: Vec<f64> = rows.iter().filter_map(|row| row[k].number()).collect();
-        levels.sort_by(f64::total_cmp);
-        levels.dedup();
-        levels.len() <= 2
+        let levels = || rows.iter().filter_map(|row| row[k].number());
+        let (low, high) = range(levels());
+        levels().all(|level| level == low || level == high)
     };
     let n = rows.len();
     let times = table.first(time);

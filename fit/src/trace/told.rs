@@ -81,7 +81,8 @@ messages! {
         "columns {first} and {second} hold different times; say which one, and the signal that belongs to it";
     SameColumn { name: String } [Remedy::Columns("")] "column {name} is asked for twice";
     Blocks { line: u64, text: String }
-        "line {line}: '{text}' between the rows begins another recording; put each into a file of its own";
+        "line {line}: '{text}' between the rows may begin another recording; put each into a file of its own, or leave \
+         the line out";
     TwoRates { first: String, second: String } [Remedy::Rate]
         "'{first}' and '{second}' above the numbers tell different rates; give the right one";
     Thousands { number: String }

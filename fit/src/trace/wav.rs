@@ -45,10 +45,11 @@ impl Sound {
                     let tag = if tag == 0xfffe { field(24, 2)? } else { tag };
                     if channels == 0 || rate == 0 {
                         return Err("it has no channel or no rate".into());
+                    } else if size == 0 {
+                        return Err("it announces no samples; was its recording ended?".into());
                     }
                     // Few bits may stand in a wider field.
-                    let wide = Some(block / channels).filter(|wide| 8 * wide >= bits && *wide <= 8);
-                    let wide = wide.unwrap_or(bits.div_ceil(8));
+                    let wide = block / channels;
                     let value: fn(&[u8]) -> f64 = match (tag, wide) {
                         (1, 1) => |few| f64::from(few[0]) / 128.0 - 1.0,
                         (1, 2..=4) => |few| {
@@ -75,9 +76,6 @@ impl Sound {
 pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let refused = |reason: String| Refusal::NotCsv { reason: format!("it is a WAV that cannot be read: {reason}") };
     let Sound { channels, rate, values, announced } = Sound::parse(bytes).map_err(refused)?;
-    if announced == Some(0) {
-        return Err(refused("it announces no samples; was its recording ended?".into()));
-    }
     let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
     let rate = options.rate.unwrap_or(rate);
     let heads = Heads { width: channels, ..Heads::default() };

