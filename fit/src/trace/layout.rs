@@ -114,7 +114,7 @@ impl Columns<'_> {
     fn said(&self, k: usize) -> Option<Means> {
         match said(self.table.heads.label(k)) {
             Some(Means::In(unit)) => Some(Means::In(unit)),
-            _ if self.table.is_clock(k) => Some(Means::In(Unit::Second)),
+            _ if self.table.clocks.contains(&k) => Some(Means::In(Unit::Second)),
             other => other,
         }
     }
@@ -131,7 +131,7 @@ impl Columns<'_> {
         let rises = numbers.windows(2).filter(|pair| pair[1] > pair[0]).count();
         let falls = numbers.windows(2).filter(|pair| pair[1] < pair[0]).count();
         // Times of day in whole seconds do not rise often.
-        self.table.is_clock(k) && rises > 0
+        self.table.clocks.contains(&k) && rises > 0
             || rises + falls >= 2.max(numbers.len() / 50) && 10 * rises.min(falls) <= rises + falls
     }
 
@@ -175,7 +175,7 @@ impl Columns<'_> {
         let running: Vec<usize> = columns().filter(|k| self.runs(*k)).collect();
         let find = |is: &dyn Fn(usize) -> bool| running.iter().copied().find(|k| is(*k));
         let has_unit = |k: usize| matches!(self.said(k), Some(Means::In(_)));
-        let named = find(&|k| has_unit(k) && !self.table.is_clock(k)).or_else(|| find(&has_unit));
+        let named = find(&|k| has_unit(k) && !self.table.clocks.contains(&k)).or_else(|| find(&has_unit));
         let named = named.or_else(|| find(&|k| self.said(k) == Some(Means::Time)));
         if named.is_some() {
             return Ok(named);
@@ -208,7 +208,7 @@ impl Columns<'_> {
             return Ok((None, Clock::Rate(1.0 / step), Told::Header(words)));
         };
         let in_unit = |unit: Unit, told: Told| Ok((time, Clock::Unit(unit), told));
-        if table.is_clock(k) {
+        if table.clocks.contains(&k) {
             return match table.cut_second(k) {
                 Some(number) => Err(Refusal::Thousands { number }),
                 None => in_unit(Unit::Second, Told::Format),

@@ -86,11 +86,8 @@ pub fn words(text: &str) -> Vec<String> {
 
 /// The unit of time that a word is the name of.
 pub fn unit_of(word: &str) -> Option<Unit> {
-    match words(word).as_slice() {
-        [word] => match meaning(word)? {
-            In(unit) => Some(unit),
-            _ => None,
-        },
+    match meaning(&words(word).join(" "))? {
+        In(unit) => Some(unit),
         _ => None,
     }
 }
@@ -118,10 +115,8 @@ pub fn said(name: &str) -> Option<Means> {
     let (name, inside) = parts(name);
     let all = words(name);
     if let Some(unit) = inside {
-        // `x10` or `per` makes another unit of it.
-        let is_factor = |word: &String| {
-            word == "per" || word == "div" || word.strip_prefix('x').is_some_and(|x| x.starts_with(char::is_numeric))
-        };
+        // `x10` makes another unit of it.
+        let is_factor = |word: &String| word.strip_prefix('x').is_some_and(|x| x.starts_with(char::is_numeric));
         let is_plain = !name.contains(['*', '×', '/']) && !all.iter().any(is_factor);
         return unit_of(unit).filter(|_| is_plain).map(In);
     }

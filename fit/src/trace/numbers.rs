@@ -57,10 +57,9 @@ impl Form {
 
     /// A number with this decimal mark and no other; NaN and infinities are numbers here.
     pub fn number(self, field: &str) -> Option<f64> {
-        match field.find(',') {
-            None => field.parse().ok().filter(|_| !(self.comma && field.contains('.'))),
-            Some(_) if !self.comma || field.contains('.') => None,
-            Some(_) => field.replacen(',', ".", 1).parse().ok(),
+        match self.comma {
+            false => field.parse().ok(),
+            true => field.replacen(',', ".", 1).parse().ok().filter(|_| !field.contains('.')),
         }
     }
 
@@ -76,16 +75,12 @@ impl Form {
     /// `05`, so that is the half of a decimal.
     pub fn fits<'a>(self, lines: impl Iterator<Item = &'a str>) -> f64 {
         let is_half = |field: &str| field.len() > 1 && field.starts_with('0') && field.as_bytes()[1].is_ascii_digit();
-        let (mut all, mut numbers) = (0.0, 0.0);
-        for field in lines.flat_map(|line| self.split(line)).filter(|field| !field.is_empty()) {
-            all += 1.0;
-            numbers += match self.cell(field) {
-                Cell::Clock(_) => 1.0,
-                Cell::Number(_) if !is_half(field) => 1.0,
-                _ => 0.0,
-            };
-        }
-        numbers / f64::max(all, 1.0)
+        let is_number = |field: &&&str| match self.cell(field) {
+            Cell::Number(_) => !is_half(field),
+            cell => matches!(cell, Cell::Clock(_)),
+        };
+        let fields: Vec<&str> = lines.flat_map(|line| self.split(line)).filter(|field| !field.is_empty()).collect();
+        fields.iter().filter(is_number).count() as f64 / fields.len().max(1) as f64
     }
 }
 

@@ -74,7 +74,7 @@ pub struct Table<'a> {
     /// Those columns that hold numbers or times of day.
     pub columns: Vec<usize>,
     /// Those of them that hold times of day: they count in seconds from the first one.
-    clocks: Vec<usize>,
+    pub clocks: Vec<usize>,
 }
 
 impl<'a> Table<'a> {
@@ -163,21 +163,18 @@ impl<'a> Table<'a> {
         ))
     }
 
-    /// Times of day become seconds since the first one; in other columns they are words.
+    /// Times of day become seconds since the first one.
     fn count_days(&mut self) {
-        let mut since: Vec<Option<(f64, f64)>> = vec![None; self.clocks.len()];
-        for line in &mut self.rows {
-            for (k, cell) in line.cells.iter_mut().enumerate() {
-                let clock = self.clocks.iter().position(|clock| *clock == k);
-                *cell = match (*cell, clock) {
-                    (Cell::Clock(x), Some(clock)) => {
-                        let (first, last) = since[clock].unwrap_or((x, 0.0));
-                        let time = counted_on(x - first, last);
-                        since[clock] = Some((first, time));
-                        Cell::Number(time)
+        for k in &self.clocks {
+            let (mut first, mut last) = (None, 0.0);
+            for cell in self.rows.iter_mut().filter_map(|row| row.cells.get_mut(*k)) {
+                *cell = match *cell {
+                    Cell::Clock(x) => {
+                        last = counted_on(x - *first.get_or_insert(x), last);
+                        Cell::Number(last)
                     }
-                    (Cell::Clock(_), None) | (Cell::Number(_), Some(_)) => Cell::Word,
-                    (other, _) => other,
+                    Cell::Number(_) => Cell::Word,
+                    other => other,
                 };
             }
         }
@@ -186,20 +183,16 @@ impl<'a> Table<'a> {
     /// The fields of a line above the rows; what makes it a comment is no part of the first. Of names between blanks, a
     /// unit in brackets belongs to the word before it; settings are no words between blanks.
     fn fields_above(&self, line: &str) -> Vec<String> {
-        let inner = line.trim_start_matches(['#', '%', '/', ';']).trim_start();
-        let inner = if inner.len() < line.len() { inner } else { line };
-        let mut fields: Vec<String> = Vec::new();
-        for field in self.form.split(inner) {
-            match fields.last_mut() {
-                Some(last) if self.form.delimiter == ' ' && field.starts_with(['(', '[']) => {
-                    *last += &format!(" {field}")
-                }
-                _ => fields.push(field.into()),
-            }
+        const REMARK: [char; 4] = ['#', '%', '/', ';'];
+        let inner = line.strip_prefix(REMARK).map_or(line, |rest| rest.trim_start_matches(REMARK).trim_start());
+        if self.form.delimiter != ' ' {
+            return self.form.split(inner).map(String::from).collect();
         }
-        match self.form.delimiter == ' ' && fields.len() != self.heads.width {
-            true => inner.split(',').map(|field| field.trim().into()).collect(),
-            false => fields,
+        let joined = inner.replace(" (", "\u{a0}(").replace(" [", "\u{a0}[");
+        let names: Vec<String> = self.form.split(&joined).map(|name| name.replace('\u{a0}', " ")).collect();
+        match names.len() == self.heads.width {
+            true => names,
+            false => inner.split(',').map(|field| field.trim().into()).collect(),
         }
     }
 
@@ -216,10 +209,8 @@ impl<'a> Table<'a> {
             fields.len() > last && 2 * cells().count() > self.columns.len() && cells().all(is_name) && !is_setting
         };
         let told = self.above.iter().find(|(_, fields)| setting(&fields[0]) == Some(Means::Names));
-        if let Some((_, fields)) = told.filter(|(_, fields)| is_wide(fields)) {
-            return [fields.clone(), Vec::new()];
-        }
-        let mut lines = self.above.iter().rev().filter(|(line, _)| line.contains(char::is_alphabetic));
+        let last_lines = self.above.iter().rev().filter(|(line, _)| line.contains(char::is_alphabetic));
+        let mut lines = told.into_iter().chain(last_lines);
         let mut next = || lines.next().map(|(_, fields)| fields.clone()).filter(|fields| is_wide(fields));
         let Some(lowest) = next() else { return Default::default() };
         let is_units = |fields: &[String]| self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]));
@@ -269,11 +260,6 @@ impl<'a> Table<'a> {
     /// A column's numbers in some rows of the whole file.
     pub fn spread(&self, column: usize) -> Vec<f64> {
         self.numbers(column, self.rows.len().div_ceil(JUDGED))
-    }
-
-    /// Does a column hold times of day?
-    pub fn is_clock(&self, column: usize) -> bool {
-        self.clocks.contains(&column)
     }
 
     /// The first word in the first row, as a reader of a refusal may need it.

@@ -43,7 +43,7 @@ fn a_name_tells_a_time_its_unit_or_something_else() {
         (None, ""),
         (None, "Time (tenths of ms);Time (s/div);Time (h:m:s);Time (10us);Time x1000 (s);Time*1e6 (s);10us;tms"),
         (None, "Frequency (Hz);nm;deg;mm;Angle [°];λ (nm);Hz;CH1 (V);V/s;ms.A;ms/div;min;Time (min);t_us_x10;Zeit"),
-        (None, "shutter 8 ms;/records/s.wav;TrigTime;Exposure time;X1;No.;time since start;V per div (s)"),
+        (None, "shutter 8 ms;/records/s.wav;TrigTime;Exposure time;X1;No.;time since start"),
     ] {
         names.split(';').for_each(|name| assert_eq!(said(name), told, "{name}"));
     }
