@@ -217,28 +217,23 @@ impl Columns<'_> {
         // What a rate says of the steps of these times.
         let by_rate = step.as_ref().ok().and_then(|step| step.as_ref());
         let by_rate = by_rate.and_then(|(words, step)| Some((words.clone(), self.unit_of_steps(k, *step)?)));
-        match (unit, self.said(k)) {
-            (Some(unit), Some(Means::In(named))) if named != unit => {
+        let (first, counts) = (table.first(k), self.counts(k));
+        match (unit, self.said(k), by_rate) {
+            (Some(unit), Some(Means::In(named)), _) if named != unit => {
                 return in_unit(unit, Told::Against(format!("its name says {}", named.name())));
             }
-            (Some(unit), _) => return in_unit(unit, Told::Asked),
+            (Some(unit), ..) => return in_unit(unit, Told::Asked),
             // A rate that fits the steps in another unit says that one of the two is wrong.
-            (None, Some(Means::In(unit))) => {
-                return match by_rate.filter(|(_, other)| *other != unit) {
-                    Some((second, _)) => Err(Refusal::TwoRates { first: table.heads.quoted(k), second }),
-                    None => in_unit(unit, Told::Name),
-                };
+            (None, Some(Means::In(unit)), Some((second, other))) if other != unit => {
+                return Err(Refusal::TwoRates { first: table.heads.quoted(k), second });
             }
+            (None, Some(Means::In(unit)), _) => return in_unit(unit, Told::Name),
+            (None, _, Some((words, unit))) if !counts => return in_unit(unit, Told::Header(words)),
             _ => (),
         }
-        let (first, counts) = (table.first(k), self.counts(k));
-        match (step?, by_rate) {
-            // The numbers of a timer are no samples.
-            (Some((words, step)), _) if counts => {
-                return Ok((time.filter(|_| is_counter(&first)), Clock::Rate(1.0 / step), Told::Header(words)));
-            }
-            (_, Some((words, unit))) => return in_unit(unit, Told::Header(words)),
-            _ => (),
+        // The numbers of a timer are no samples.
+        if let (Some((words, step)), true) = (step?, counts) {
+            return Ok((time.filter(|_| is_counter(&first)), Clock::Rate(1.0 / step), Told::Header(words)));
         }
         // Whole numbers with more than one between them are a timer's, and that hardly counts seconds.
         let is_timer =
@@ -262,24 +257,24 @@ impl Columns<'_> {
     }
 
     fn no_times(&self) -> Refusal {
-        let text = self.table.text_beside().map(short_of);
-        // A number with something else, or a date: a rate would not be what it says.
-        if let Some(text) = text.clone().filter(|text| text.contains(|c: char| c.is_ascii_digit())) {
-            return Refusal::NoPlainTimes { text };
+        match self.table.text_beside().map(short_of) {
+            // A number with something else, or a date: a rate would not be what it says.
+            Some(text) if text.contains(|c: char| c.is_ascii_digit()) => Refusal::NoPlainTimes { text },
+            text => {
+                let columns = self.table.heads.told(&self.table.columns);
+                Refusal::NoTimes { columns, text, quoted: self.settings.unread.clone() }
+            }
         }
-        let columns = self.table.heads.told(&self.table.columns);
-        Refusal::NoTimes { columns, text, quoted: self.settings.unread.clone() }
     }
 
     /// # Errors
     /// Other times than these, of the same name: a table of several recordings.
     fn only_times(&self, time: usize) -> Result<(), Refusal> {
         let Table { heads, columns, .. } = self.table;
-        let of = |k: usize| (heads.label(k), self.table.spread(k));
-        let (label, times) = of(time);
-        let is_other = |k: &usize| *k != time && !label.is_empty() && heads.label(*k) == label && of(*k).1 != times;
-        match columns.iter().copied().find(is_other).filter(|k| self.runs(*k)) {
-            Some(other) => Err(Refusal::TwoTimes { first: heads.quoted(time), second: heads.quoted(other) }),
+        let has_others = |k: usize| k != time && self.runs(k) && self.table.spread(k) != self.table.spread(time);
+        let is_other = |k: &&usize| heads.label(**k) == heads.label(time) && has_others(**k);
+        match columns.iter().find(is_other).filter(|_| !heads.label(time).is_empty()) {
+            Some(other) => Err(Refusal::TwoTimes { first: heads.quoted(time), second: heads.quoted(*other) }),
             None => Ok(()),
         }
     }
