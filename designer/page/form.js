@@ -108,12 +108,6 @@ const NONE = {
   timer_hz: 'not given', min_gap: 'not given', nominal: '1/125', delay: 'none', timer_bits: '32', delay_spread: 'none',
   sync_settles: 'at once', lamp_lag: 'none', min_pulse: 'none',
 };
-const HINTS = {
-  delay: 'From the edge of the camera’s sync to the start of opening',
-  delay_spread: 'The sync delay’s standard deviation from shot to shot',
-  duty: 'The part of the time that is lit, up to 1', lamp_lag: 'From switching the lamp on to its light',
-  sync_settles: 'So long after its first edge the sync’s contact may bounce',
-};
 const SET_UPS = [
   ['', 'not said yet'], ['emulated', 'emulated: the camera stays open'], ['in_path', 'in the path: dims the lamp'],
 ];
@@ -127,7 +121,7 @@ export function drawForm(model) {
   const number = (id, of) => {
     const { value, words } = wordsOf(scene, id), is = at.includes(id);
     const isTyped = wrong?.id === id || tells(id, value, unit);
-    return html`<label title=${HINTS[id] ?? nothing} ?hidden=${of && of !== lamp}>
+    return html`<label ?hidden=${of && of !== lamp}>
       ${label(id)}${KINDS[id] === 'time' && !TIMES.includes(id) ? `, ${unit}` : ''}
       <input id=${id} placeholder=${NONE[id] ?? nothing} .value=${live(isTyped ? $(id).value : words)}
         aria-invalid=${is ? 'true' : nothing} aria-describedby=${is ? 'problem' : nothing}></label>`;

@@ -8,8 +8,8 @@ import { isSameShape, originSeconds, perSecond, short, syncOf, tidy } from './sc
 import { viewOf } from './view.js';
 
 const LEFT = 44, RIGHT = 16, TOP = 18, BETWEEN = 34, BOTTOM = 44, RESIDUAL = 64;
-/** More triggers than this have no dots, and more than that no shares. */
-const MOST_DOTS = 64, MOST_SHARES = 400;
+/** More triggers than this have no dots. */
+const MOST_DOTS = 64;
 
 /** Round numbers in a range, some `count` of them. */
 function rounds(from, to, count) {
@@ -209,25 +209,13 @@ export class Graph {
     const [start, end] = [f(X(view.times[0])), f(X(view.times[3]))];
     const top = f(this.y(this.high));
     const isSeen = this.isSynced && this.range[0] <= 0 && this.range[1] >= 0;
-    const shares = ['', ''];
-    if (view.edges.length <= MOST_SHARES) {
-      const edges = view.edges.map((t) => f(X(t)));
-      for (let i = 1; i < edges.length; i++) shares[i % 2] += `M${edges[i - 1]} ${top}V${zero}H${edges[i]}V${top}Z`;
-    } else shares[0] = `M${start} ${top}V${zero}H${end}V${top}Z`;
-
+    const shares = ['', ''], edges = view.edges.map((t) => f(X(t)));
+    for (let i = 1; i < edges.length; i++) shares[i % 2] += `M${edges[i - 1]} ${top}V${zero}H${edges[i]}V${top}Z`;
     const hasDots = view.marks.length <= MOST_DOTS;
-    const few = view.marks.length > 2000 ? [] : view.marks;
-    const dots = ['', ''], stems = ['', ''];
-    for (const [t, o, u] of few) {
-      const x = f(X(t));
-      const [y, v] = [f(this.y(hasDots ? o : 0.04)), f(this.u(hasDots ? u : 0.06))];
-      stems[0] += `M${x} ${zero}V${y}`;
-      stems[1] += hasDots ? `M${LEFT} ${v}H${x}V${bottom}` : `M${x} ${v}V${bottom}`;
-      if (hasDots) {
-        dots[0] += `M${x} ${y}h0`;
-        dots[1] += `M${x} ${v}h0`;
-      }
-    }
+    const marks = view.marks.map(([t, o, u]) =>
+      [f(X(t)), f(this.y(hasDots ? o : 0.04)), f(this.u(hasDots ? u : 0.06))]);
+    const marked = (of) => marks.map(of).join('');
+    const dots = (k) => (hasDots ? marked((mark) => `M${mark[0]} ${mark[k]}h0`) : '');
     const come = collected(this).map(([t, u]) => `${f(X(t))} ${f(this.u(u))}`);
     const all = `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`;
 
@@ -252,13 +240,15 @@ export class Graph {
       ['share even', shares[0], 'below'], ['share odd', shares[1], 'below'],
       ['lamp', pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''),
         flashes.duty !== null && 'below'],
-      ['stems', stems[0]], ['edge', isSeen ? `M${f(this.x(0))} ${TOP}V${this.cdfBottom}` : ''],
+      ['stems', marked(([x, y]) => `M${x} ${zero}V${y}`)],
+      ['edge', isSeen ? `M${f(this.x(0))} ${TOP}V${this.cdfBottom}` : ''],
       // Where a trace tells the triggers, no curve does.
       [own ? 'curve beside' : 'curve', `M${LEFT} ${zero}H${start}${ramps}L${end} ${zero}H${LEFT + this.width}`],
       // A trace that goes far below the dark, or above the light, goes through no other chart.
-      ['trace', points(([, o]) => this.y(o)), 'upper'], ['errors', told.map(error).join('')], ['dots', dots[0]],
+      ['trace', points(([, o]) => this.y(o)), 'upper'], ['errors', told.map(error).join('')], ['dots', dots(1)],
       ['residual', missed && `${missed}M${LEFT} ${middle}H${LEFT + this.width}`],
-      ['stems cdf', stems[1]], ['curve', own ? `M${come.slice(1, -1).join('L')}` : all], ['dots', dots[1]],
+      ['stems cdf', marked(([x, , v]) => (hasDots ? `M${LEFT} ${v}H${x}V${bottom}` : `M${x} ${v}V${bottom}`))],
+      ['curve', own ? `M${come.slice(1, -1).join('L')}` : all], ['dots', dots(2)],
     ];
     const { width, height } = this.size;
     const clip = (id, height) =>
