@@ -91,9 +91,7 @@ pub fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn Fn
     let raw = shown.as_ref().map_or(Vec::new(), |it| fewer(pairs(&it.trace)));
     drop(bytes);
     let read = recording.as_ref().ok().map(|recording| recording.reading.clone());
-    let fit = recording
-        .and_then(|recording| fitted(name, recording, asked, progress))
-        .map_err(|it| refusal(&it, asked.light != Light::Auto));
+    let fit = recording.and_then(|it| fitted(name, it, asked, progress)).map_err(|it| it.message());
     Measured { names, read, raw, fit }
 }
 
@@ -165,16 +163,6 @@ fn test(fit: &Fit) -> String {
     }
 }
 
-/// Why there is no fit; was it said which way light moves the signal?
-fn refusal(refusal: &Refusal, has_way: bool) -> Message {
-    let told = refusal.message();
-    if !has_way || !matches!(refusal, Refusal::NoPulse { .. }) {
-        return told;
-    }
-    let text = "no pulse: nothing stands out of the noise this way; does light move the signal the other way?";
-    Message { text: text.into(), remedy: Some("light"), ..told }
-}
-
 /// Of many samples the least and the greatest of neighbours.
 fn fewer<const N: usize>(samples: Vec<[f64; N]>) -> Vec<[f64; N]> {
     if samples.len() <= MOST {
@@ -200,7 +188,7 @@ mod tests {
     #[test]
     fn no_message_names_an_argument_of_the_program() {
         let (refusals, warnings) = (Refusal::each(), Warning::each());
-        let all = refusals.iter().map(|it| refusal(it, true)).chain(warnings.iter().map(Tell::message));
+        let all = refusals.iter().map(Tell::message).chain(warnings.iter().map(Tell::message));
         all.for_each(|Message { text, .. }| assert!(!text.contains("--"), "{text}"));
     }
 }
