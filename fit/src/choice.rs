@@ -7,7 +7,7 @@ use crate::columns;
 use crate::frame::FrameFits;
 use crate::missed::Parts;
 use crate::noise::slow_correlation;
-use crate::outcome::{Candidate, Options, Reason, Tolerance};
+use crate::outcome::{Candidate, Options, Reason};
 use crate::signal::Kind;
 use crate::structure::structure;
 use crate::trace::{Frame, Pulses};
@@ -55,24 +55,14 @@ pub fn candidates(fits: &FrameFits, n: u32) -> Vec<Candidate> {
     Kind::ALL.into_iter().map(candidate).collect()
 }
 
-/// The kind that is asked for, or else the simplest within the tolerance that is asked for, or else the one of least
-/// criterion, and where that does not explain the trace, the simplest freer one that does.
+/// The kind that is asked for, or else the one of least criterion, and where that does not explain the trace, the
+/// simplest freer one that does.
 pub fn choose(options: &Options, candidates: &[Candidate], fits: &FrameFits) -> (Kind, Reason) {
-    let simplest = |good: &dyn Fn(&Candidate) -> bool| {
-        let found = candidates.iter().find(|candidate| good(candidate));
-        found.map_or(Kind::Free, |candidate| candidate.signal.kind)
-    };
     if let Some(kind) = options.model {
         return (kind, Reason::Asked);
     }
-    if let Some(tolerance) = options.tolerance {
-        let most = match tolerance {
-            Tolerance::Share(share) => share * fits.exposure(Kind::Free).area() * fits.units.pulse,
-            Tolerance::Seconds(seconds) => seconds,
-        };
-        return (simplest(&|candidate| candidate.shift <= most), Reason::Tolerance(tolerance));
-    }
-    let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
+    let best = candidates.iter().find(|candidate| candidate.delta_bic <= 0.0);
+    let kind = best.map_or(Kind::Free, |candidate| candidate.signal.kind);
     let mut freer = Kind::ALL[kind as usize..].iter();
     match freer.find(|freer| structure(fits, **freer).test.explained) {
         Some(freer) if *freer > kind => (*freer, Reason::Explains),

@@ -50,7 +50,7 @@ pub use curve::Curve;
 pub use delay::{Delay, Sync};
 pub use errors::Measured;
 pub use json::json;
-pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test, Tolerance};
+pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test};
 pub use report::{because, text};
 pub use signal::{Flicker, Hum, Kind, Signal};
 use structure::Structure;
@@ -142,9 +142,7 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
     let candidates = choice::candidates(fits, n);
     let (chosen, reason) = choice::choose(options, &candidates, fits);
     let peak = outcome::peak(options.full, pulses, &candidates[chosen as usize])?;
-    // A kind that was taken for a tolerance need not follow every sample: there the freest is asked.
-    let judged = if let Reason::Tolerance(_) = reason { Kind::Free } else { chosen };
-    let Structure { mut test, hidden, .. } = structure::structure(fits, judged);
+    let Structure { mut test, hidden, .. } = structure::structure(fits, chosen);
     test.at = fits.units.seconds(test.at);
     let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
     let from_trace = match chosen {

@@ -7,22 +7,11 @@ use crate::signal::{Kind, Signal};
 use crate::trace::{Frame, Light, Pulses, Reading, Refusal, Timing, Trace, Warning};
 use crate::unit::Unit;
 
-/// A difference in trigger times that is small enough.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tolerance {
-    /// As a share of the exposure.
-    Share(f64),
-    /// In seconds.
-    Seconds(f64),
-}
-
 /// What a fit is asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The curve's kind; chosen without.
     pub model: Option<Kind>,
-    /// The simplest kind whose triggers are as near to those of the freest one.
-    pub tolerance: Option<Tolerance>,
     /// The signal of a shutter that is fully open, the dark level included, in the trace's unit.
     pub full: Option<f64>,
     /// Which pulse, from 1; the one of median exposure without.
@@ -57,8 +46,6 @@ pub struct Candidate {
 pub enum Reason {
     /// It was asked for.
     Asked,
-    /// It is the simplest within the tolerance.
-    Tolerance(Tolerance),
     /// Schwarz's criterion took a simpler one, which does not explain the trace; this is the simplest that does.
     Explains,
     /// Schwarz's criterion is least.

@@ -9,7 +9,7 @@ use crate::curve::fractions;
 use crate::delay::{self, Delay};
 use crate::errors::Measured;
 use crate::fact::{self, Fact};
-use crate::outcome::{Fit, From, Reason, Test, Tolerance};
+use crate::outcome::{Fit, From, Reason, Test};
 use crate::signal::Kind;
 use crate::speed;
 use crate::trace::{Warning, from_opening, sampling_interval};
@@ -232,13 +232,6 @@ pub fn efficiency(fit: &Fit) -> String {
 pub fn because(fit: &Fit) -> String {
     match fit.reason {
         Reason::Asked => "as asked".into(),
-        Reason::Tolerance(Tolerance::Share(share)) => format!(
-            "the simplest whose triggers are within {} % of the exposure of the free model's",
-            short(100.0 * share, 3)
-        ),
-        Reason::Tolerance(Tolerance::Seconds(seconds)) => {
-            format!("the simplest whose triggers are within {} of the free model's", fit.unit().show(seconds))
-        }
         Reason::Explains => "the simplest that explains the trace".into(),
         Reason::Criterion { effective } => {
             format!("best for its number of parameters (BIC); {} independent samples", trimmed(effective, 0))

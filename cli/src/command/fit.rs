@@ -9,13 +9,13 @@ use clap::builder::RangedI64ValueParser;
 use shutter_fit::delay::{self, Delay};
 use shutter_fit::trace::{self, Column, Light, Tell, Warning};
 use shutter_fit::unit::{Unit, count, rounded, short, stops};
-use shutter_fit::{Kind, Options, Record, Tolerance};
+use shutter_fit::{Kind, Options, Record};
 
 use super::fit_many::{self, Speed};
 use super::input::{file_name, names, shown, stem};
 use super::mark;
 use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path};
-use super::quantity::{rate, speed, time, tolerance};
+use super::quantity::{rate, speed, time};
 use super::read::{self, Asked, Read};
 use crate::picture;
 use shutter_plan::emit::Form;
@@ -75,12 +75,10 @@ pub struct Args {
     /// Which pulse to fit, counted from 1 through all traces of one setting; if left out, the one of median exposure
     #[arg(long, value_name = "NUMBER")]
     frame: Option<usize>,
-    /// The shutter's model; if left out, the simplest that is good enough
+    /// The shutter's model; if left out, the simplest that is good enough; the report tells by how much each moves the
+    /// triggers
     #[arg(long)]
     model: Option<Kind>,
-    /// Take the simplest model whose triggers are within this of the free model's: 0.1% (of the exposure), 20us
-    #[arg(long, value_parser = tolerance, conflicts_with = "model", allow_hyphen_values = true)]
-    tolerance: Option<Tolerance>,
     /// How many triggers; if left out, as many as the existing scene has, or 16
     #[arg(long, value_name = "N", value_parser = trigger_count())]
     triggers: Option<u32>,
@@ -113,10 +111,10 @@ impl Args {
 
     /// How a trace is read, and what its fit is asked for.
     fn asked(&self) -> (trace::Options, Options) {
-        let &Self { unit, rate, from, to, light, full, frame, model, tolerance, mains, .. } = self;
+        let &Self { unit, rate, from, to, light, full, frame, model, mains, .. } = self;
         let columns = self.columns.iter().map(|column| Column::parse(column)).collect();
         let how = trace::Options { unit, columns, rate, from, to, sync: None };
-        (how, Options { light, full, frame, model, tolerance, mains, ..Options::default() })
+        (how, Options { light, full, frame, model, mains, ..Options::default() })
     }
 }
 

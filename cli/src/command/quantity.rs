@@ -1,14 +1,13 @@
-//! Quantities as people write them in arguments: `1.5ms`, `84MHz`, `1/250`, `0.1%`.
+//! Quantities as people write them in arguments: `1.5ms`, `84MHz`, `1/250`.
 
 use clap::ValueEnum;
-use shutter_fit::Tolerance;
 use shutter_fit::unit::Unit;
 
 /// A finite number, and the unit behind it.
 fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     // The `e` of an exponent belongs to the number.
-    let is_unit = |c: char| c == '%' || (c.is_alphabetic() && !matches!(c, 'e' | 'E'));
+    let is_unit = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
     let (number, unit) = text.split_at(text.find(is_unit).unwrap_or(text.len()));
     let number = number.trim().replace('_', "").parse().ok().filter(|x: &f64| x.is_finite())?;
     Some((number, unit))
@@ -63,19 +62,4 @@ pub fn whole_rate(text: &str) -> Result<u32, String> {
         return Ok(whole as u32);
     }
     Err(format!("a whole number of Hz up to {} is required", u32::MAX))
-}
-
-/// A difference in trigger times.
-pub fn tolerance(text: &str) -> Result<Tolerance, String> {
-    let tolerance = match split(text) {
-        Some((percent, "%")) => Some(Tolerance::Share(0.01 * percent)),
-        Some((number, name)) => unit(name).map(|unit| Tolerance::Seconds(unit.seconds(number))),
-        None => None,
-    };
-    let is_none_below = |it: &Tolerance| match it {
-        Tolerance::Share(x) | Tolerance::Seconds(x) => *x >= 0.0,
-    };
-    tolerance
-        .filter(is_none_below)
-        .ok_or_else(|| "write 0.1% (of the exposure), or a time as in 20us, 0.02ms, 2e-5s".into())
 }

@@ -6,7 +6,7 @@ use std::fs;
 
 use serde_json::Value;
 use shutter_fit::trace::{self, Light, Recording, Refusal, Tell, Trace, Warning};
-use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit, report};
+use shutter_fit::{Curve, Fit, Kind, Options, Sync, fit, report};
 use shutter_plan::fitted;
 use shutter_plan::plan::Plan;
 use shutter_plan::scene;
@@ -257,20 +257,6 @@ fn shots_an_hour_apart_are_as_good_as_shots_side_by_side() {
         assert!((a.value / b.value - 1.0).abs() < 2e-4, "{apart} s: {b:?}");
         assert!(b.error < 1.3 * a.error, "{apart} s: {b:?}, {a:?}");
     }
-}
-
-#[test]
-fn a_tolerance_asks_for_the_simplest_within_it() {
-    let mut random = Random::new(2);
-    let case = traced("leaf", 2000.0, 0.003, &mut random);
-    let within = |tolerance| case.fitted(&Options { tolerance: Some(tolerance), ..Options::default() });
-    assert_eq!(within(Tolerance::Share(0.5)).chosen, Kind::Box);
-    assert_eq!(within(Tolerance::Share(0.0)).chosen, Kind::Free);
-    let loose = within(Tolerance::Share(0.05));
-    assert_eq!(loose.chosen, Kind::Trapezoid);
-    let most = loose.best().shift;
-    assert_eq!(within(Tolerance::Seconds(1.001 * most)).chosen, Kind::Trapezoid);
-    assert!(within(Tolerance::Seconds(0.999 * most)).chosen > Kind::Trapezoid);
 }
 
 /// The exposure counts in full light, and noise hides how high a peak without a plateau is: not as a linear model has
