@@ -215,81 +215,39 @@ function placed(parts, times) {
   return retold(parts, times, part);
 }
 
-/** In a link, a key of both tables is that of the shutter, and the other's has a name of its own. */
-const inLink = (key) => (key in SHUTTER ? `own_${key}` : key);
-
 /** The scene as the part of an address behind '#', with a table of speeds beside it if there is one. */
-export function hash({ scene, speeds }) {
-  const { name, unit, shutter, flashes, own } = scene, { measured } = shutter;
-  const told = {
-    name, unit: unit === 'µs' ? 'us' : unit, times: TIMES.map((key) => shutter[key]), inner: shutter.shutteropening,
-    ...whole(shutter, Object.keys(SHUTTER)),
-    ...Object.fromEntries(Object.keys(FLASHES).map((key) => [inLink(key), flashes[key]])),
-    triggers_at: own && [own.open_start, ...own.trigger_times], trace: measured && JSON.stringify(measured),
-    speeds: speeds && JSON.stringify(speeds),
-  };
-  const parts = Object.entries(told).filter(([, value]) => value != null);
-  // A list stays one that can be read.
-  return `#${parts.map(([key, it]) => `${key}=${Array.isArray(it) ? it : encodeURIComponent(it)}`).join('&')}`;
-}
+export const hash = ({ scene: { given, ...scene }, speeds }) =>
+  `#${encodeURI(JSON.stringify({ ...scene, speeds }, (_, it) => it ?? undefined))}`;
 
 /** What such a part of an address holds; an error says what is wrong. */
 export function fromAddress(text) {
-  if (text.length > LONGEST) throw new Error(`it is ${text.length} characters long`);
-  const parts = new URLSearchParams(text.replace(/^#/, ''));
-  const speeds = parts.has('speeds') ? JSON.parse(parts.get('speeds')) : null;
-  if (speeds && !(Array.isArray(speeds) && speeds.every(isSpeed))) {
-    throw new Error('speeds: a name, a kind, doubts and numbers are required in each row');
+  const require = (key, is) => {
+    if (!is) throw new Error(`${key}: no scene has this`);
+  };
+  require(`${text.length} characters`, text.length <= LONGEST);
+  const { name, unit, shutter, flashes, own = null, speeds = null } = JSON.parse(decodeURI(text.slice(1)));
+  require('unit', UNITS.includes(unit));
+  const told = { shutter: { ...shutter, unit }, flashes: { ...flashes, unit } };
+  const scene = { ...fromScene(String(name ?? 'linked').slice(0, 60), told), own, given: GIVEN };
+  const isNumbers = (list, n) => Array.isArray(list) && list.length === n && list.every(Number.isFinite);
+  const isOf = (kind, x) => (Array.isArray(kind) ? kind.includes(x) : kind === 'yes' ? typeof x === 'boolean'
+    : kind === 'count' ? Number.isInteger(x) : Number.isFinite(x));
+  for (const [table, kinds] of [[scene.shutter, SHUTTER], [scene.flashes, FLASHES]]) {
+    for (const key in kinds) require(key, table[key] === null || isOf(kinds[key], table[key]));
   }
-  return { scene: fromParts(parts), speeds };
+  const { shutter: { shutteropening: inner, measured }, flashes: { triggers } } = scene;
+  require('times', isNumbers(TIMES.map((key) => scene.shutter[key]), 4));
+  require('triggers', triggers !== null);
+  require('shutteropening', inner === null || isNumbers(inner, 8));
+  require('measured', measured === null || Object(measured) === measured);
+  require('own', own === null || (Number.isFinite(own.open_start) && isNumbers(own.trigger_times, triggers)));
+  require('speeds', speeds === null || (Array.isArray(speeds) && speeds.every(isSpeed)));
+  return { scene, speeds };
 }
-
-const isNumber = (x) => Number.isFinite(x) && x >= 0;
 
 function isSpeed(it) {
   const words = [it?.name, it?.kind, ...(it?.doubts ?? [null])];
   const isDial = [it?.near, it?.dial].every((x) => x == null || (x > 0 && x < Infinity));
   const numbers = [it?.exposure, it?.error, it?.scatter, it?.pulses];
-  return isDial && words.every((it) => typeof it === 'string') && numbers.every(isNumber);
-}
-
-function fromParts(parts) {
-  const require = (key, what, is) => {
-    if (!is) throw new Error(`${key}: ${what} required`);
-  };
-  const numbers = (key, count) => {
-    const list = parts.get(key).split(',').map((x) => (x.trim() ? Number(x) : NaN));
-    require(key, `${count} numbers are`, !count || list.length === count);
-    require(key, 'a number is', list.every(Number.isFinite));
-    return list;
-  };
-  const value = (name, kind) => {
-    if (!parts.has(name)) return null;
-    const all = kind === 'yes' ? [false, true] : kind, text = parts.get(name);
-    const found = Array.isArray(all) ? all.find((it) => String(it) === text) : numbers(name, 1)[0];
-    require(name, Array.isArray(all) ? `${all.join(' or ')} is` : 'a number is', found !== undefined);
-    require(name, 'a whole number is', kind !== 'count' || Number.isInteger(found));
-    return found;
-  };
-  const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
-  require('unit', 's, ms, us or ns is', UNITS.includes(unit));
-  for (const key of ['times', 'triggers']) require(key, 'it is', parts.has(key));
-  const times = numbers('times', 4), measured = parts.has('trace') ? JSON.parse(parts.get('trace')) : null;
-  require('trace', 'what a fit found is', Object(measured) === measured || measured === null);
-  const table = (kinds, name) =>
-    Object.fromEntries(Object.entries(kinds).map(([key, kind]) => [key, value(name(key), kind)]));
-  const scene = {
-    name: (parts.get('name') ?? '').slice(0, 60) || 'linked', unit,
-    shutter: {
-      ...Object.fromEntries(TIMES.map((key, i) => [key, times[i]])),
-      shutteropening: parts.has('inner') ? numbers('inner', 8) : null, ...table(SHUTTER, (key) => key), measured,
-    },
-    flashes: table(FLASHES, inLink), own: null, given: GIVEN,
-  };
-  if (parts.has('triggers_at')) {
-    const [open_start, ...trigger_times] = numbers('triggers_at'), n = scene.flashes.triggers;
-    require('triggers_at', `${n} times, one for each trigger, are`, trigger_times.length === n);
-    scene.own = { open_start, trigger_times };
-  }
-  return scene;
+  return isDial && words.every((it) => typeof it === 'string') && numbers.every((x) => Number.isFinite(x) && x >= 0);
 }

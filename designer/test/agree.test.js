@@ -5,7 +5,8 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import {
-  ROOT, bouncing, copied, drop, facts, fill, measure, open, page, problem, scratch, setUp, shutter, sine, synced, trace,
+  ROOT, bouncing, copied, drop, facts, fill, link, measure, open, page, problem, scratch, setUp, shutter, sine, synced,
+  trace,
 } from './harness.js';
 
 setUp();
@@ -17,6 +18,7 @@ const between = (a, b) => a + (b - a) * random();
 const round = (x, digits = 6) => Number(x.toPrecision(digits));
 const ticksOf = (json) => JSON.parse(json).triggers.map((it) => it.ticks);
 
+const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 function scene(i) {
   const [start, up, open, down] = [between(-5, 5), between(0.1, 4), between(0, 6), between(0.1, 4)];
   const times = [start, start + up, start + up + open, start + up + open + down].map((t) => round(t));
@@ -27,15 +29,15 @@ function scene(i) {
   };
   const [low, high] = [[0, 0.5], [0.5, 1]], [early, late] = [[0.05, 0.5], [0.5, 0.95]];
   const inner = [point(0, early, low), point(0, late, high), point(2, early, high), point(2, late, low)];
-  const parts = [`name=r${i}`, `unit=${['ms', 'us', 's'][i % 3]}`, `times=${times}`, 'min_gap=0'];
-  if (i % 4) parts.push(`inner=${inner}`);
-  parts.push(`triggers=${Math.ceil(between(0, 40))}`, `timer_hz=${[1e6, 72e6, 32768, 125e6][i % 4]}`);
-  parts.push(`set_up=${i % 6 === 1 ? 'in_path' : 'emulated'}`);
-  if (i % 5 === 0) parts.push(`nominal=${round(between(1, 9), 3)}`);
-  if (i % 7 === 0) parts.push(`delay=${round(between(0, 9), 4)}`, `sync_falls=${i % 2 === 0}`);
-  if (i % 6 === 1) parts.push(`duty=${round(between(0.1, 0.9), 3)}`);
-  if (i % 6 === 2) parts.push('pulse=0.001');
-  return `#${parts.join('&')}`;
+  const shutter = Object.fromEntries(TIMES.map((key, k) => [key, times[k]]));
+  shutter.shutteropening = i % 4 ? inner.flat() : null;
+  const flashes = { min_gap: 0, triggers: Math.ceil(between(0, 40)), timer_hz: [1e6, 72e6, 32768, 125e6][i % 4] };
+  flashes.set_up = i % 6 === 1 ? 'in_path' : 'emulated';
+  if (i % 5 === 0) shutter.nominal = round(between(1, 9), 3);
+  if (i % 7 === 0) Object.assign(flashes, { delay: round(between(0, 9), 4), sync_falls: i % 2 === 0 });
+  if (i % 6 === 1) flashes.duty = round(between(0.1, 0.9), 3);
+  if (i % 6 === 2) flashes.pulse = 0.001;
+  return link(flashes, shutter, { name: `r${i}`, unit: ['ms', 'µs', 's'][i % 3] });
 }
 
 // A scene as the program reads it.

@@ -55,9 +55,16 @@ export function setUp(name = 'chrome') {
   });
 }
 
-/** The scene that most tests begin with. */
-export const SOFT = '#name=soft&unit=ms&times=0,2.5,7.5,10&inner=0.1,0,0.15,1,0.85,1,0.9,0'
-  + '&triggers=12&timer_hz=1000000&min_gap=0.4&set_up=emulated';
+/** A link to a scene; without more, to that with which most tests begin. */
+export const link = (flashes, shutter, more) => `#${encodeURI(JSON.stringify({
+  name: 'soft', unit: 'ms', ...more,
+  shutter: {
+    open_start: 0, open_end: 2.5, close_start: 7.5, close_end: 10,
+    shutteropening: [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0], ...shutter,
+  },
+  flashes: { triggers: 12, timer_hz: 1e6, min_gap: 0.4, set_up: 'emulated', ...flashes },
+}))}`;
+export const SOFT = link();
 
 /** Opens the page. */
 export async function open(hash = SOFT, size = { width: 1360, height: 2800 }) {

@@ -123,7 +123,7 @@ const seen = () => page.evaluate(() => ({
   curve: document.querySelector('#graph path.curve').getAttribute('d'),
   handles: [...document.querySelectorAll('g.handle')].map((it) => it.getAttribute('transform')),
   pressed: [...document.querySelectorAll('[aria-pressed=true]')].map((it) => it.dataset.name),
-  facts: document.getElementById('facts').textContent, address: designer.hash(designer.model.now),
+  facts: document.querySelector('#facts:not([inert])')?.textContent, address: designer.hash(designer.model.now),
 }));
 
 /** All steps back or forth. */

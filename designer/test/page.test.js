@@ -7,15 +7,11 @@ import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import {
   ROOT, SCENES, SOFT, bouncing, browser, choose, clipped, complaints, copied, copiedBy, curve, drag, dragged, drawn,
-  drop, ended, extend, facts, fill, fitted, forgive, hold, measure, middle, open, page, planned, preset, problem, ready,
-  refused, rows, scratch, see, setUp, settled, shutter, sine, synced, ticks, told, trace, url, written,
+  drop, ended, extend, facts, fill, fitted, forgive, hold, link, measure, middle, open, page, planned, preset, problem,
+  ready, refused, rows, scratch, see, setUp, settled, shutter, synced, ticks, told, trace, url, written,
 } from './harness.js';
 
-// Everything within one ramp or the other: the most that a curve can ask of the crate.
-const ALL_RAMP = '#name=ramps&unit=ms&times=0,5,5,10&inner=0.2,0,0.3,1,0.7,1,0.8,0'
-  + '&triggers=256&timer_hz=10000000&min_gap=0&set_up=emulated';
-const SPEED = '{"name":"a","kind":"b","doubts":[],"exposure":1,"error":0,"scatter":0,"pulses":1}';
-const TRIANGLE = '#name=triangle&unit=ms&times=0,50,50,100&triggers=20&timer_hz=1000000&min_gap=2&set_up=emulated';
+const SPEED = { name: 'a', kind: 'b', doubts: [], exposure: 1, error: 0, scatter: 0, pulses: 1 };
 
 setUp();
 
@@ -134,9 +130,12 @@ test('numbers are read as people write them, and any other is refused', async ()
 });
 
 test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; a finger reads and drags', async () => {
-  const long = '#name=long&unit=µs&times=-1234.5678,1262.68902,4671.17877,8710.60274&triggers=10000&timer_hz=100000000'
-    + '&inner=0.1227014,0.0005208,0.1941086,0.9329666,0.75,0.91,0.87,0.001&min_gap=0.0012345&nominal=12345.678'
-    + '&pulse=0.012345&delay=1234.5678&sync_falls=true&set_up=emulated';
+  const long = link({
+    triggers: 10000, timer_hz: 100000000, min_gap: 0.0012345, pulse: 0.012345, delay: 1234.5678, sync_falls: true,
+  }, {
+    open_start: -1234.5678, open_end: 1262.68902, close_start: 4671.17877, close_end: 8710.60274, nominal: 12345.678,
+    shutteropening: [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.75, 0.91, 0.87, 0.001],
+  }, { unit: 'µs' });
   await open(long, { width: 1024, height: 2800, hasTouch: true });
   await page.$eval('#inner', (it) => (it.open = true));
   const width = () => page.evaluate(() => document.documentElement.scrollWidth);
@@ -166,7 +165,8 @@ test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; 
 });
 
 test('handles in one place can each be taken, keys move each within its box, and the photograph follows', async () => {
-  await open(TRIANGLE);
+  const triangle = { open_end: 50, close_start: 50, close_end: 100, shutteropening: null };
+  await open(link({ triggers: 20, min_gap: 2 }, triangle));
   // A triangle opens into a trapezoid, to either side.
   await dragged('open_end', -60, 0);
   assert.ok(await number('open_end') < 45);
@@ -198,8 +198,7 @@ test('handles in one place can each be taken, keys move each within its box, and
 });
 
 test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, which way the sync goes', async () => {
-  await open(SOFT.replace('&timer_hz=1000000', '').replace('&set_up=emulated', '').replace('&min_gap=0.4', '')
-    + '&delay=1');
+  await open(link({ timer_hz: null, set_up: null, min_gap: null, delay: 1 }));
   for (const form of ['rust', 'c', 'csv', 'json']) {
     await choose(form);
     const lacks = /only you know: the set-up; the timer’s rate; the lamp’s least gap; which way the sync goes/;
@@ -234,7 +233,7 @@ test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, wh
 
 test('the delay ends at the opening: the edge of the sync stands still, whatever moves', async () => {
   // By a link: a curve that is drawn, with a delay that was told. Its times are counted from the edge.
-  await open(`${SOFT}&delay=2&sync_falls=true`);
+  await open(link({ delay: 2, sync_falls: true }));
   const is = async (at, delay) => {
     await see({ delay, open_start: delay, facts: new RegExp(`delay${delay} ms from the sync's falling edge`) });
     const { triggers: [{ ticks, from_edge_ticks: from }] } = await json(), [first] = await rows('#ticks tbody');
@@ -502,16 +501,19 @@ test('broken and huge traces get a message, and the page goes on', async () => {
 });
 
 test('links of garbage get a message', async () => {
+  const times = (...all) => link({}, Object.fromEntries(['open_start', 'open_end', 'close_start', 'close_end']
+    .map((key, i) => [key, all[i]])));
   const garbage = [
-    '#%', '#%E0%A4%A', '#<script>alert(1)</script>', '#times=1', '#times=0,1,2,3', '#' + 'a'.repeat(100_000),
-    '#times=,,,&triggers=&timer_hz=&min_gap=', SOFT.replace('emulated', 'both'), `${SOFT}&speeds=[{}]`,
-    ...['"dial":-3', '"dial":0', '"exposure":-1', '"error":null'].map((wrong) =>
-      `${SOFT}&speeds=[${SPEED.replace('}', `,${wrong}}`)}]`),
-    ...['3,2,1,0', '0,0,0,0', '0,2,1,3', '1e39,2e39,3e39,4e39'].map((times) => SOFT.replace('0,2.5,7.5,10', times)),
-    ...['&triggers_at=0,1,2', '&trace={}', '&trace=7', '&trace={"warnings":[[]]}'].map((more) => SOFT + more),
-    SOFT.replace('0.9,0', '0.9,2'), SOFT.replace('unit=ms', 'unit='), SOFT.replace('unit=ms', 'unit=parsec'),
-    SOFT.replace('triggers=12', 'triggers=12.5'), SOFT.replace('triggers=12', 'triggers=4294967295'),
-    ...['NaN', '1e308', '-Infinity'].map((x) => ALL_RAMP.replaceAll(/\d+(\.\d+)?/g, x)),
+    '#%', '#%E0%A4%A', '#<script>alert(1)</script>', '#{}', '#7', '#null', `#${'a'.repeat(100_000)}`,
+    ...[{ dial: -3 }, { dial: 0 }, { exposure: -1 }, { error: null }, { kind: 7 }].map((wrong) =>
+      link({}, {}, { speeds: [{ ...SPEED, ...wrong }] })),
+    times(3, 2, 1, 0), times(0, 0, 0, 0), times(0, 2, 1, 3), times(1e39, 2e39, 3e39, 4e39), times(0, '2', 5, 10),
+    ...[{ own: [] }, { own: { open_start: 0, trigger_times: [1, 2] } }, { unit: '' }, { unit: 'parsec' },
+      { speeds: [{}] }].map((more) => link({}, {}, more)),
+    ...[{}, 7, { warnings: [[]] }].map((measured) => link({}, { measured })),
+    ...[[0.1, 0, 0.15, 1, 0.85, 1, 0.9, 2], [1, 2], 'x'].map((shutteropening) => link({}, { shutteropening })),
+    ...[{ set_up: 'both' }, { triggers: 12.5 }, { triggers: 4294967295 }, { triggers: null }, { min_gap: '0' },
+      { min_gap: 1e308 }, { sync_falls: 1 }].map((flashes) => link(flashes)),
   ];
   for (const [i, hash] of garbage.entries()) {
     // As the page's first address, or typed into it.
@@ -694,7 +696,7 @@ test('several traces are a table alone, which prints, and a link that holds it',
   assert.deepEqual(await speeds(), told);
   // Nor does a field that is wrong keep a table from being linked.
   await page.fill('#open_end', 'x');
-  assert.match(await copiedBy(() => page.click('#speeds-link')), /speeds=/);
+  assert.match(await copiedBy(() => page.click('#speeds-link')), /speeds/);
   await page.click('#speeds-close');
   await see({ '#graph': true });
   // Of two files with one name each row opens its own, and Back is the table.
@@ -737,7 +739,7 @@ test('a clipped trace is doubted on screen and paper, in every form, link and ro
   const link = await copiedBy(() => page.click('#link'));
   await dragged('open_end', 20, 0);
   for (const form of forms) assert.doesNotMatch(await copied(form), /clipped: \d/, form);
-  assert.doesNotMatch(await address(), /clipped: \d|trace=/);
+  assert.doesNotMatch(await address(), /measured/);
   await page.push('Back to the fit');
   assert.match(await copied('json'), /clipped: \d+ %/);
   await follow(link);
