@@ -14,7 +14,7 @@ use shutter_plan::scene;
 use crate::generator::{Case, Random, Recorder, Truth, each};
 use crate::scenes::MEASURED;
 use crate::shutters::{Draw, TUNED};
-use crate::support::{Folder, SCENES, codes, csv, keys, leaf, number, rows, sampled, trapezoid};
+use crate::support::{Folder, SCENES, codes, keys, leaf, number, rows, sampled, trapezoid};
 
 fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
     fit(trace, options, &mut |_| ())
@@ -422,37 +422,6 @@ fn from_a_trace_to_the_firmwares_module() {
     assert_eq!(module, read("../examples/trigger/measured.rs"));
 }
 
-/// The edge of the sync is where the trace's time is told to be.
-#[test]
-fn the_delay_from_the_sync_is_measured() {
-    let folder = Folder::new("delay");
-    folder.write("a.csv", leaf(1.0));
-    let (read, _) = through(leaf(1.0), &trace::Options::default());
-    let start = read.best().signal.curve.start;
-    assert!(start > 0.0005 && read.delay.is_none());
-    for (sync, at) in [("0", 0.0), ("0.4ms", 4e-4), ("-1e-3s", -1e-3)] {
-        let run = folder.run(&format!("fit a.csv --out a.toml --sync {sync}")).well();
-        assert!(!run.err.contains("warning"), "{}", run.err);
-        let line = run.out.lines().find(|line| line.starts_with("delay        "));
-        assert!(line.is_some_and(|line| line.contains(" ms to the opening, ± ")), "{}", run.out);
-        assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
-        let plan = Plan::parse(&folder.text("a.toml")).unwrap();
-        assert!((plan.sync.delay.unwrap().seconds - (start - at)).abs() < 1e-9, "{sync}");
-    }
-    // What is not known is not made up.
-    assert!(!folder.run("fit a.csv").out.contains("\ndelay = "));
-    // The pulse that an edge belongs to is the one that follows it.
-    let one = sampled(trapezoid, 1200, 0.005);
-    let mut two = one.clone();
-    two.times.extend(one.times.iter().map(|t| t + 0.01212));
-    two.values.extend(&one.values);
-    folder.write("two.csv", csv(&two));
-    let reason = "the edge of the sync is followed by pulse 1 first, and another one is fitted (--frame)";
-    folder.refuses(&[("fit two.csv --frame 2 --sync 0", reason)]);
-    folder.run("fit two.csv --frame 1 --sync 0").well();
-    folder.run("fit two.csv --frame 2 --sync 0.012s").well();
-}
-
 /// Its pulses match the trace without any curve: by each trigger, the samples themselves have gathered that trigger's
 /// share.
 #[test]
@@ -507,63 +476,6 @@ fn a_program_reads_json() {
     assert_eq!([0, 1].map(|i| number(&both[i], "nominal_s")), [0.004, 0.005]);
     let off = number(&plain, "opens_s") - number(&plain, "delay_s");
     assert!((off - 4e-4).abs() < 1e-12 && number(&plain, "delay_error_s") > 0.0, "{off}");
-}
-
-/// Four sensors behind a curtain shutter: each one's exposure, and when its light comes later than the first one's.
-#[test]
-fn several_sensors_tell_how_the_curtains_travel() {
-    let folder = Folder::new("sensors");
-    let mut random = Random::new(17);
-    let sensors = [[3.0, 5.2], [4.5, 6.95], [6.0, 8.6], [7.5, 10.4]];
-    let openness = |t: f64, [opens, closes]: [f64; 2]| ((t - opens).min(closes - t) / 0.3 + 0.5).clamp(0.0, 1.0);
-    let mut text = String::from("t_ms,A,B,C,D\n");
-    for i in 0..3000 {
-        let t = 5e-3 * f64::from(i);
-        let mut value = |ends| format!(",{:.5}", openness(t, ends) + 0.003 * random.normal());
-        text += &format!("{t:.3}{}\n", sensors.map(&mut value).concat());
-    }
-    folder.write("a.csv", text);
-    let out = folder.run("fit a.csv --columns 1,2,3,4,5").quietly();
-    for (name, [opens, closes]) in ["A", "B", "C", "D"].into_iter().zip(sensors) {
-        let line = out.lines().find(|line| line.starts_with(name)).unwrap();
-        let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-        let more = ((closes - opens) / 2.2_f64).log2();
-        let truths = [closes - opens, more, opens - 3.0, closes - 5.2];
-        // Each ± but that of the stops has an error behind it.
-        let places = if name == "A" { &[0][..] } else { &[0, 2, 3, 5] };
-        for (place, truth) in places.iter().zip(truths) {
-            let most = if truth == more { 0.006 } else { 0.002 };
-            assert!((numbers[*place] - truth).abs() < most, "{line}: {truth}");
-        }
-    }
-    let json = folder.json("a.csv --columns 1,A,D");
-    let half = |k: usize| json[k]["half_light_s"][0].as_f64().unwrap();
-    assert!((half(1) - half(0) - 0.0045).abs() < 2e-6 && json.as_array().unwrap().len() == 2);
-    let rise = json[0]["rise_fall_s"][0].as_f64().unwrap();
-    assert!((rise - 0.8 * 0.3e-3).abs() < 5e-6, "{rise}");
-    folder.refuses(&[("fit a.csv --columns 1,2,3 --out no.toml", "several sensors have no scene")]);
-}
-
-#[test]
-fn a_window_and_the_zero_of_time_are_kept_to() {
-    let folder = Folder::new("window");
-    let two = |t: f64| trapezoid(t) + 0.5 * trapezoid(2.0 * t - 0.02);
-    let mut random = Random::new(6);
-    let text: String =
-        (0..2000).map(|i| format!("{:.5}\n", two(1e-5 * f64::from(i)) + 0.004 * random.normal())).collect();
-    folder.write("rated.csv", format!("Sample rate: 100 kHz\nA\n{text}"));
-    for (window, exposure) in [("--to 10ms", 5.0), ("--from 10ms --to=1s", 2.5)] {
-        let json = folder.json(&format!("rated.csv {window}"));
-        assert!((1e3 * number(&json, "exposure_s") - exposure).abs() < 0.02, "{json}");
-        assert_eq!(number(&json, "pulses"), 1.0);
-    }
-    folder.run("fit rated.csv --to 10ms").prints(&["by 'Sample rate: 100 kHz', to 10 ms"]);
-    // The rows are counted, and nothing says from when.
-    let reason = "--sync: times are counted from the first row";
-    folder.refuses(&[("fit rated.csv --to 10ms --sync 0", reason)]);
-    folder.write("zero.csv", format!("Sample rate: 100 kHz\nHOffset,-1.5e-3\nA\n{text}"));
-    let json = folder.json("zero.csv --to 8ms --sync 0");
-    assert!((number(&json, "delay_s") - 0.0005).abs() < 1e-5, "{json}");
 }
 
 /// The fit ends its window where the light ends, not the light where its window does.

@@ -4,11 +4,10 @@
 use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};
 
-use serde_json::Value;
 use shutter_plan::scene::Written;
 
 use crate::scenes::{MEASURED, TRAPEZOID, with};
-use crate::support::{Folder, Run, has, leaf, number};
+use crate::support::{Folder, Run, has, leaf};
 
 /// A folder with a scene and a trace of straight ramps.
 fn folder(name: &str) -> Folder {
@@ -372,46 +371,4 @@ fn a_fit_replaces_its_table_and_nothing_else() {
     // Flashes that do not go with the shutter are told, and the scene is there for its user to mend them.
     folder.write("leaf.toml", first.replace("# min_gap = 0.1", "min_gap = 9"));
     has(&fit("trace.csv --sync 0"), &["warning: leaf.toml: as it is, triggers: triggers 0 and 1 come "], &[]);
-}
-
-/// The lamp does not fire in the dark: the delay is that of the last fit, or a hand's.
-#[test]
-fn no_delay_is_older_than_its_trace() {
-    let folder = folder("stale");
-    let ticks = |args: &str| {
-        let line = format!("plan leaf.toml --timer-hz 1MHz --sync-falls false --min-gap 0 --emit json {args}");
-        let run = folder.run(&line).well();
-        let json: Value = serde_json::from_str(&run.out).unwrap();
-        (json["delay_ticks"].as_u64(), number(&json["triggers"][0], "from_edge_ticks"), run.err)
-    };
-    folder.run("fit trace.csv --sync 0 --out leaf.toml").well();
-    let (delay, early, _) = ticks("--set-up emulated");
-    assert_eq!(delay, Some(2001));
-    // An X contact: the edge comes when the shutter is open.
-    folder.run("fit trace.csv --sync 4.1ms --out leaf.toml").tells(&["the edge of the sync comes after"]);
-    let line = "plan leaf.toml --timer-hz 1MHz --sync-falls false --min-gap 0 --set-up in_path";
-    let told = "delay: triggers 0 to 3 come, the first 1.343 ms before the edge of the sync; all of up to 3 triggers \
-                come behind it; an earlier contact";
-    folder.refuses(&[(line, "before the edge of the sync")]);
-    has(&folder.run(line).err, &[&told[..30], "an earlier contact gives more time"], &[]);
-    let (delay, open, _) = ticks("--set-up in_path --fully-open --triggers 2");
-    assert_eq!((delay, open > 0.0), (Some(0), true));
-    // A hand's own wins, and that it differs is told.
-    let own = folder.text("leaf.toml").replace("# delay = 2.5", "sync_falls = false\ndelay = 2.0005");
-    folder.write("leaf.toml", own);
-    let (delay, first, err) = ticks("--set-up emulated");
-    assert_eq!((delay, first), (Some(2001), early));
-    has(&err, &["the flashes' own delay of 2.0005 ms counts, and the trace has -2.0"], &[]);
-}
-
-/// A speed among several keeps its own.
-#[test]
-fn several_fits_keep_what_a_user_wrote() {
-    let folder = folder("kept_speeds");
-    folder.write("v1.5.csv", leaf(2.0));
-    folder.run("fit trace.csv v1.5.csv --out .").well();
-    folder.write("v1.5.toml", folder.text("v1.5.toml").replace("# min_gap = 0.1", "min_gap = 0.2"));
-    let err = folder.run("fit trace.csv v1.5.csv --nominal 1/200,1/100 --out .").well().err;
-    assert!(err.starts_with("wrote ./trace.toml\nwrote ./v1.5.toml\nnext: "), "{err}");
-    has(&folder.text("v1.5.toml"), &["nominal = 10.0\n", "\nmin_gap = 0.2"], &[]);
 }

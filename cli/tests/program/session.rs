@@ -17,8 +17,13 @@ fn the_session_is_as_it_was() {
     folder.write("cut.csv", &text[..text.len() / 2]);
     let trace = sampled(trapezoid, 1200, 0.005);
     folder.write("values.csv", rows(&trace, |_, v| format!("{v}")));
-    let sensors = rows(&trace, |t, v| format!("{t:.6},{v:.5},{:.5}", 0.1 + 2.0 * trapezoid(t - 0.001)));
+    // The second one opens 1 ms later, and closes 1.5 ms later.
+    let second = |t: f64| 0.1 + (t - 0.003).min(0.0105 - t).clamp(0.0, 0.002) / 0.001;
+    let sensors = rows(&trace, |t, v| format!("{t:.6},{v:.5},{:.5}", second(t)));
     folder.write("sensors.csv", format!("time_s,A,B\n{sensors}"));
+    // Rows that are counted, and those whose first one is told to be at -1.5 ms.
+    folder.write("rated.csv", format!("Sample rate: 100 kHz\nA\n{}", rows(&trace, |_, v| format!("{v}"))));
+    folder.write("zero.csv", folder.text("rated.csv").replace("A\n", "HOffset,-1.5e-3\nA\n"));
     folder.write("measured.toml", MEASURED);
     folder.write("bare.toml", with(TRAPEZOID, ""));
     folder.write("box.toml", with(BOX, "pulse = 0.1"));
