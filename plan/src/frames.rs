@@ -115,27 +115,18 @@ impl<'a> Frames<'a> {
     /// So many triggers keep what is asked for, and one more does not, where `keep` do and `fail` do not.
     pub fn most(&self, mut keep: u32, mut fail: u32) -> u32 {
         let Source::Curve(curve) = self.source else { return keep };
-        // Where the openness is 1, a share of the exposure takes its own length; the answer is near what that leaves
-        // room for.
         let lit = match self.lamp {
             Lamp::Equal { ticks } => ticks.into(),
             _ => self.lit,
         };
+        // Where the openness is 1, a share of the exposure takes its own length: the answer is near what that leaves
+        // room for, and else halfway between what is known.
         let room = f64::from(curve.exposure()) * f64::from(self.timer.hz);
-        let mut next = (room / self.dark.saturating_add(lit).max(1) as f64) as u32;
-        // Away from there in growing steps, until it lies between two of them.
-        let (mut step, mut is_between) = (1, [false; 2]);
+        let near = (room / self.dark.saturating_add(lit).max(1) as f64).min(fail.into()) as u32;
+        let mut guesses = [near + near / 8 + 1, near - near / 8].into_iter();
         while fail - keep > 1 {
-            next = next.clamp(keep + 1, fail - 1);
-            let kept = self.checked(next).is_ok();
-            *(if kept { &mut keep } else { &mut fail }) = next;
-            is_between[usize::from(kept)] = true;
-            next = match (is_between, kept) {
-                ([true, true], _) => keep + (fail - keep) / 2,
-                (_, true) => keep.saturating_add(step),
-                (_, false) => fail.saturating_sub(step),
-            };
-            step = step.saturating_mul(2);
+            let next = guesses.next().map_or(keep.midpoint(fail), |near| near.clamp(keep + 1, fail - 1));
+            *(if self.checked(next).is_ok() { &mut keep } else { &mut fail }) = next;
         }
         keep
     }
