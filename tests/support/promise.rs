@@ -95,11 +95,11 @@ impl Figures {
             let eight = shutter::<8>(exact.curve());
             let same = |t| ours_values(&ours, t) == ours_values(&eight, t);
             let are_same = questions.ts.iter().all(|(t, _)| same(*t));
-            self.expect("cdf, pdf and openness by OCTAVES", are_same, String::new, exact);
+            self.expect("cdf, pdf and openness by OCTAVES", are_same, &String::new, exact);
         }
     }
 
-    fn expect(&mut self, what: &'static str, holds: bool, at: impl Fn() -> String, exact: &Exact) {
+    fn expect(&mut self, what: &'static str, holds: bool, at: &dyn Fn() -> String, exact: &Exact) {
         if !holds {
             let first = || (0, format!("{} of {:?}", at(), exact.curve()));
             self.breaches.entry(what).or_insert_with(first).0 += 1;
@@ -107,7 +107,7 @@ impl Figures {
     }
 
     /// Expects a figure to be at most a promised one.
-    fn hold(&mut self, what: &'static str, figure: f64, most: f64, at: impl Fn() -> String, exact: &Exact) {
+    fn hold(&mut self, what: &'static str, figure: f64, most: f64, at: &dyn Fn() -> String, exact: &Exact) {
         let worst = self.worst.entry(what).or_insert(0.0);
         *worst = worst.max(figure);
         self.expect(what, figure <= most, at, exact);
@@ -123,21 +123,21 @@ impl Figures {
             let at = || format!("u = {u:e}: {t:e}, {OCTAVES} octaves, {steps} steps, {errors:?}");
             if questions.is_typical && time.hi != 0.0 && u >= LEAST_FRACTION {
                 self.forward = [self.forward[0] + errors.forward, self.forward[1] + 1.0];
-                self.hold("forward error", errors.forward, FORWARD, at, exact);
+                self.hold("forward error", errors.forward, FORWARD, &at, exact);
             }
             // A polynomial's is less, so that neighbours cannot change places.
             let (what, most) =
                 if steps == 0 { ("direct backward error", DIRECT) } else { ("backward error", BACKWARD) };
-            self.hold(what, floored(u, errors.backward), most, at, exact);
-            self.expect("step back", t >= last, at, exact);
+            self.hold(what, floored(u, errors.backward), most, &at, exact);
+            self.expect("step back", t >= last, &at, exact);
             let most = if curve.opening[3].1 < 1.0 { MAX_STEPS } else { STEPS };
-            self.hold("steps", steps.into(), most.into(), at, exact);
+            self.hold("steps", steps.into(), most.into(), &at, exact);
             last = t;
         }
         let ends = [f32::NAN, -1.0, -0.0, 0.0, 1.0, 2.0].map(|u| ours.inverse_cdf(u));
         let [start, end] = [curve.open_start(), curve.close_end()];
         let exactly = ends == [start, start, start, start, end, end];
-        self.expect("ends", exactly, || format!("{ends:?}"), exact);
+        self.expect("ends", exactly, &|| format!("{ends:?}"), exact);
     }
 
     /// The cdf, the pdf and the openness; order of the cdf; and what is known of the whole curve.
@@ -146,10 +146,10 @@ impl Figures {
         for &(t, ref near) in ts {
             let values @ [value, pdf, openness] = ours_values(ours, t);
             let at = || format!("t = {t:e}: {values:?}");
-            self.hold("cdf", near.cdf_ulp(value, CDF_FLOOR), VALUE, at, exact);
-            self.hold("pdf", near.pdf_ulp(pdf, DENSITY_FLOOR), VALUE, at, exact);
-            self.hold("openness", near.openness_ulp(openness, DENSITY_FLOOR), VALUE, at, exact);
-            self.hold("cdf's step back", falls_by_ulps(last, value), CDF_STEP_BACK, at, exact);
+            self.hold("cdf", near.cdf_ulp(value, CDF_FLOOR), VALUE, &at, exact);
+            self.hold("pdf", near.pdf_ulp(pdf, DENSITY_FLOOR), VALUE, &at, exact);
+            self.hold("openness", near.openness_ulp(openness, DENSITY_FLOOR), VALUE, &at, exact);
+            self.hold("cdf's step back", falls_by_ulps(last, value), CDF_STEP_BACK, &at, exact);
             last = value;
         }
         for (got, true_value) in [
@@ -158,20 +158,20 @@ impl Figures {
             (ours.efficiency(), exact.efficiency()),
         ] {
             let error = (f64::from(got) - true_value.hi).abs() / ulp_f32(true_value.hi);
-            self.hold("exposure and such", error, SCALAR, || format!("{got:e}"), exact);
+            self.hold("exposure and such", error, SCALAR, &|| format!("{got:e}"), exact);
         }
         let curve = exact.curve();
         let times = [ours.open_start(), ours.open_end(), ours.close_start(), ours.close_end()];
         let [first, .., second] = curve.opening;
         let [third, .., last] = curve.closing;
         let are_its_times = times == [first, second, third, last].map(|(t, _)| t);
-        self.expect("its four times", are_its_times, || format!("{times:?}"), exact);
+        self.expect("its four times", are_its_times, &|| format!("{times:?}"), exact);
         // Where the curve starts and ends it may jump, and any value would do there: but it is its first and its last.
         let outer = [(curve.opening, curve.opening[0]), (curve.closing, curve.closing[3])];
         for (ramp, (t, f)) in outer {
             let off = f64::from(ours.openness(t)) - f64::from(f);
             let holds = ramp[0].0 == ramp[3].0 || off.abs() <= END_OPENNESS;
-            self.expect("openness at an end", holds, || format!("{t:e}"), exact);
+            self.expect("openness at an end", holds, &|| format!("{t:e}"), exact);
         }
     }
 
@@ -186,9 +186,9 @@ impl Figures {
             for i in (0..n).step_by(n as usize / 50 + 1).chain([n / 2, n - 1]) {
                 let u = (i as f32 + 0.5) / n as f32;
                 let at = || format!("{i} of {n}, {most} with {OCTAVES} octaves");
-                self.expect("a direct tick", frame.is_direct(i), at, exact);
+                self.expect("a direct tick", frame.is_direct(i), &at, exact);
                 let is_direct = ours.steps(u).is_none();
-                self.expect("a direct time", is_direct, at, exact);
+                self.expect("a direct time", is_direct, &at, exact);
             }
         }
     }
@@ -205,7 +205,7 @@ impl Figures {
         let &Frame { n, duty, first, .. } = frame;
         let (skipped, count) = (first as usize, frame.exact.len());
         let Ok(timed) = ours.at(Hz(hz)) else {
-            self.expect("tick rate", false, || format!("{n} at {hz} Hz"), exact);
+            self.expect("tick rate", false, &|| format!("{n} at {hz} Hz"), exact);
             return;
         };
         let timed = timed.min_gap(0).min_pulse(0);
@@ -230,14 +230,14 @@ impl Figures {
                 let ulp = if duty.is_some() { EDGE_ULP } else { TRIGGER_ULP };
                 let error = if near <= 0.5 { near } else { tick_error(exact, *tick, *u, hz, ulp) };
                 let at = || format!("{}, {error:.3} ticks off, or {near:.3}", which());
-                self.hold("ticks", error, TICK, at, exact);
+                self.hold("ticks", error, TICK, &at, exact);
                 if is_promised {
-                    self.hold("typical ticks", near, TYPICAL_TICK, at, exact);
+                    self.hold("typical ticks", near, TYPICAL_TICK, &at, exact);
                 }
             }
             let [on, off] = *on_off;
             let at = || format!("{} after {last}", which());
-            self.expect("order of ticks", last <= on && on <= off, at, exact);
+            self.expect("order of ticks", last <= on && on <= off, &at, exact);
             last = off;
         }
     }
@@ -254,7 +254,7 @@ impl Figures {
             let mut last = f32::NEG_INFINITY;
             for u in neighbours(place as f32, count) {
                 let t = inverse(u);
-                self.expect(what, t >= last, || format!("{t:e} after {last:e} at {u:e}"), exact);
+                self.expect(what, t >= last, &|| format!("{t:e} after {last:e} at {u:e}"), exact);
                 last = t;
             }
         };
@@ -286,7 +286,7 @@ impl Figures {
                 let cdf = direct.cdf(t);
                 let at = || format!("{cdf:e} after {last:e} at {t:e}");
                 let falls = if cdf <= 1.0 { falls_by_ulps(last, cdf) } else { f64::INFINITY };
-                self.hold("cdf's step back between neighbours", falls, CDF_STEP_BACK, at, exact);
+                self.hold("cdf's step back between neighbours", falls, CDF_STEP_BACK, &at, exact);
                 last = cdf;
             }
         }
