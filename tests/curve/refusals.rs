@@ -111,59 +111,41 @@ fn refused() {
     }
 }
 
-/// Each message: the part, the rule and the remedy.
+/// Messages that are put together: the part, the point, the rule, numbers and the remedy.
 #[rustfmt::skip]
 #[test]
 fn messages() {
     use ScheduleError as S;
-    let (part, point) = (Opening, 2);
+    let part = Opening;
     for (error, text) in [
-        (E::NotFinite(Plateau), "plateau: a control point is NaN, infinite or beyond f32 (3.4e38)"),
-        (E::TimesOutOfOrder, "times out of order: open_start <= open_end <= close_start <= close_end is required"),
-        (E::TimeOutsideRamp { part, point },
+        (E::TimeOutsideRamp { part, point: 2 },
          "opening ramp: the time of its second inner point has to lie between the ramp's ends"),
         (E::FractionOutsideRamp { part: Closing, point: 1 },
          "closing ramp: the time of its first inner point has to lie on the ramp, as a fraction of the whole interval: \
           0 at open_start, 1 at close_end"),
-        (E::TimesCross(part),
-         "opening ramp: its first inner point is later than its second by more than 15/16 of the ramp; \
-          move them closer"),
         (E::OpennessOutOfRange { part, point: 0 }, "opening ramp: the openness of its first point has to be in [0, 1]"),
         (E::OpennessOutOfRange { part, point: 3 }, "opening ramp: the openness of its last point has to be in [0, 1]"),
-        (E::DensityOutOfRange,
-         "the density has to be in [0, 1] at each control point; scale a greater one down (CubicBezier::scaled)"),
         (E::NotFullyOpen(Opening), "opening ramp: it has to end fully open, at openness 1"),
         (E::NotFullyOpen(Closing), "closing ramp: it has to begin fully open, at openness 1"),
-        (E::IntervalUnresolved,
-         "the interval is too short for its distance from time 0: below 2^-16 of its greatest time; \
-          count times from a nearer origin"),
-        (E::IntervalOutOfRange, "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)"),
-        (E::DensityTooSmall,
-         "the density's exposure is below 2^-20 of its interval; scale it up (CubicBezier::scaled)"),
-        (E::TooShort(Closing),
-         "closing ramp: it is shorter than 2^-24 of the greatest time; make it longer, or give it no length"),
+        (E::TooShort(Plateau),
+         "plateau: it is shorter than 2^-24 of the greatest time; make it longer, or give it no length"),
     ] {
         assert_eq!(error.to_string(), text);
     }
     for (error, text) in [
-        (S::RateZero, "the timer's rate is 0"),
         (S::RateTooHigh { max: Hz(9) },
          "the curve has more than 2^31 ticks; use a rate of at most 9 Hz, and times in seconds"),
         (S::RateTooHigh { max: Hz(0) },
          "the curve has more than 2^31 ticks at any rate; its times have to be in seconds"),
         (S::TooMany { max: 1 << 22 }, "more triggers or pulses than fit; use at most 4194304"),
-        (S::GapTooSmall { trigger: 3, gap: 1, min_gap: 1000 },
-         "the gap before trigger 3 is 1 tick; the minimum is 1000; \
-          use fewer triggers (max_triggers), or a faster timer"),
         (S::GapTooSmall { trigger: u32::MAX, gap: 0, min_gap: u32::MAX },
          "the gap before trigger 4294967295 is 0 ticks; the minimum is 4294967295; \
           use fewer triggers (max_triggers), or a faster timer; is its rate in Hz?"),
-        (S::PulsesTooClose { pulse: 17, gap: 562, min_gap: 4711 },
-         "the gap before pulse 17 is 562 ticks; the minimum is 4711; \
+        (S::PulsesTooClose { pulse: 17, gap: 1, min_gap: 4711 },
+         "the gap before pulse 17 is 1 tick; the minimum is 4711; \
           use fewer pulses, or a smaller duty; with min_gap(0) pulses may touch"),
         (S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 },
          "pulse 17 lasts 815 ticks; the minimum is 4711; use fewer pulses, a larger duty, or a faster timer"),
-        (S::DutyOutOfRange, "the duty has to be above 0 and at most 1"),
     ] {
         assert_eq!(error.to_string(), text);
     }

@@ -1,10 +1,10 @@
 //! Triggers and pulses: ticks, schedules, iterators, frames without a search. `promises.rs` judges the ticks
 //! themselves.
 
-use crate::support::curves::{Named, line, named, shutter};
+use crate::support::curves::{line, named, shutter};
 use crate::support::families::{random_hard, random_typical};
-use crate::support::oracle::{Curve, Dd, Exact};
-use crate::support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
+use crate::support::oracle::Curve;
+use crate::support::promise::MOST_TRIGGERS;
 use shutter_curve::{CubicBezier, Hz, Pulse, ScheduleError, ShutterCurve, TimedCurve, expect};
 
 const INNER: [f32; 8] = [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0];
@@ -281,39 +281,6 @@ fn the_most_that_keep_the_gap() {
 fn a_curve_has_so_many_bytes() {
     assert_eq!(size_of::<ShutterCurve>(), 1136);
     assert_eq!([size_of::<ShutterCurve<0>>(), size_of::<ShutterCurve<64>>()], [368, 368 + 96 * 64]);
-}
-
-/// The worst direct tick is one number: the README's, the measured table's, and the one that the firmware example
-/// leaves time for.
-#[test]
-fn one_figure_for_the_worst_direct_tick() {
-    let number = |text: &str, before: &str, after: &str| -> u32 {
-        let (_, rest) = text.split_once(before).unwrap_or_else(|| panic!("no {before:?}"));
-        let (number, _) = rest.split_once(after).unwrap();
-        number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
-    };
-    let readme = number(include_str!("../../README.md"), "took at most", " cycles");
-    let example = include_str!("../../examples/trigger/firmware.rs");
-    assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
-    // | a tick | soft | all ramp | trapezoid | worst | direct | ...
-    let (_, row) = include_str!("../../docs/internals/cost.md").split_once("\n| a tick |").unwrap();
-    assert_eq!(row.split('|').nth(4).unwrap().trim().parse(), Ok(readme));
-}
-
-/// Fractions that lie midway between two `f32`, on a curve whose ramps are steep there: half an ulp of the fraction is
-/// a quarter of a tick, and the polynomial has its own error.
-#[test]
-fn the_worst_tick_of_a_typical_curve() {
-    // The frame, the trigger and the rate of each.
-    let found = [(10_912, 8182, 805_319), (4_176_094, 1_044_066, 16_776_712)];
-    for (Named { curve, .. }, (n, i, hz)) in named("tick").into_iter().zip(found) {
-        let (exact, start) = (Exact::new(&curve), Dd::from(curve.open_start()));
-        let tick = at(&shutter::<8>(&curve), hz).trigger_ticks(n).unwrap().nth(i).unwrap();
-        let u = Dd::from(2.0 * i as f64 + 1.0) / Dd::from(2.0 * f64::from(n));
-        let time = (exact.inverse_cdf_dd(u) - start) * f64::from(hz);
-        let error = (time - Dd::from(f64::from(tick))).hi;
-        assert!((0.75..=TYPICAL_TICK).contains(&error.abs()), "{error}");
-    }
 }
 
 #[test]

@@ -12,8 +12,7 @@ pub struct Named {
 
 /// The curves of a kind: `typical` as scenes hold them; `hard` and `case`, on which solvers are known to fail, one a
 /// reason; `fault`, on which a version of the crate failed; `direct`, which once had no polynomials; `edge`, on the
-/// edge of a rule; `tick`, with the worst ticks; and `exact`, for the tests of integers. The oracle's reference values
-/// are of the first two.
+/// edge of a rule; and `exact`, for the tests of integers. The oracle's reference values are of the first two.
 pub fn named(kind: &str) -> Vec<Named> {
     let of_kind = |row: &'static str| row.strip_prefix(kind)?.strip_prefix(',');
     let curves: Vec<_> = include_str!("../data/curves.csv").lines().filter_map(of_kind).map(read).collect();

@@ -139,7 +139,7 @@ fn hard(shapes: [Shape; 2], lengths: [f64; 3], rng: &mut Rng) -> Curve {
 }
 
 /// Control times in a ramp from 0 to 1.
-pub fn hard_times(rng: &mut Rng) -> [f64; 4] {
+fn hard_times(rng: &mut Rng) -> [f64; 4] {
     let [a, b] = rng.sorted();
     match rng.below(14) {
         // Control times together at an end: the mass starts with a higher power.
@@ -170,7 +170,7 @@ pub fn hard_times(rng: &mut Rng) -> [f64; 4] {
 }
 
 /// Openness from the outer end to the join, where it is 1.
-pub fn hard_openness(rng: &mut Rng) -> [f64; 4] {
+fn hard_openness(rng: &mut Rng) -> [f64; 4] {
     let [a, b] = rng.sorted();
     match rng.below(12) {
         // Flat at the outer end, exactly and nearly.

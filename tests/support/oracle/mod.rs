@@ -37,12 +37,6 @@ impl Curve {
         Self::shutter(mirror(self.closing), mirror(self.opening))
     }
 
-    /// All times multiplied by a power of two, exactly unless they leave the normal numbers.
-    pub fn scaled(&self, power: f32) -> Self {
-        let scale = |points: Points| points.map(|(t, f)| (t * power, f));
-        Self::shutter(scale(self.opening), scale(self.closing))
-    }
-
     pub fn open_start(&self) -> f32 {
         self.opening[0].0
     }
@@ -282,7 +276,6 @@ fn roots(a: f64, b: f64, c: f64) -> Vec<f64> {
 /// What an answer `t` to a question `u` is off by.
 #[derive(Clone, Copy, Debug)]
 pub struct Errors {
-    pub exact: Dd,
     /// In ulp of the exact time.
     pub forward: f64,
     /// How many ulp `u` must move for the time to round to the answer.
@@ -418,7 +411,7 @@ impl Exact {
             let miss = (self.cdf(low) - u).max(u - self.cdf(high)).max(Dd::ZERO);
             miss.hi / ulp_f32(u.hi)
         };
-        Errors { exact, forward: self.forward_ulp(t, exact), backward }
+        Errors { forward: self.forward_ulp(t, exact), backward }
     }
 
     fn is_inside(&self, t: f32) -> bool {
@@ -431,12 +424,9 @@ impl Exact {
         if !self.is_inside(t) {
             return f64::INFINITY;
         }
-        (Dd::from(t) - exact).hi.abs() / self.ulp_of_time(exact)
-    }
-
-    pub fn ulp_of_time(&self, exact: Dd) -> f64 {
         let (start, end) = (self.curve.open_start() as f64, self.curve.close_end() as f64);
-        ulp_f32(if start < 0.0 && end > 0.0 { end.max(-start) } else { exact.hi })
+        let size = if start < 0.0 && end > 0.0 { end.max(-start) } else { exact.hi };
+        (Dd::from(t) - exact).hi.abs() / ulp_f32(size)
     }
 
     /// What the curve takes on around a time, to judge several answers by.
@@ -459,11 +449,6 @@ impl Exact {
             masses.extend(ramp.spots().into_iter().map(|spot| before + ramp.masses(spot)[0]));
         }
         masses.into_iter().map(|mass| mass / self.area).collect()
-    }
-
-    /// The fraction at the middle of the opening ramp's parameter.
-    pub fn middle(&self) -> Dd {
-        self.opening.masses(self.opening.spot(0.5))[0] / self.area
     }
 
     /// The times of the ends and the joins, of 1/2, and of the other [`landmarks`](Self::landmarks).
