@@ -124,7 +124,7 @@ fn aimed_curves() {
     for (family, (name, _)) in FAMILIES.iter().enumerate() {
         let mut figures = Figures::default();
         // More of the last two, which mix all.
-        let curves = if family < 7 { 600 } else { 1200 };
+        let curves = if family < 7 { 300 } else { 600 };
         for index in 0..curves * times() {
             figures.judge(&aimed(family, SEED, index), &mut Rng::new(SEED, index));
         }

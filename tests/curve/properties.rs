@@ -45,7 +45,7 @@ fn values(curve: &ShutterCurve<4>, t: f32) -> [u32; 3] {
 #[test]
 fn a_shutter_is_refused_or_keeps_its_promises() {
     let (mut figures, mut accepted) = (Figures::default(), 0);
-    for index in 0..10_000 * times() {
+    for index in 0..5000 * times() {
         let rng = &mut Rng::new(2026, index);
         let asked = ramps(rng);
         let made = build(&asked);
@@ -83,7 +83,7 @@ fn a_shutter_is_refused_or_keeps_its_promises() {
     }
     println!("{accepted} curves: {:?}", figures.worst);
     assert!(figures.breaches.is_empty(), "{:#?}", figures.breaches);
-    assert!(accepted > 2000, "only {accepted}");
+    assert!(accepted > 1000, "only {accepted}");
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn served<const OCTAVES: usize>(curve: &Curve) -> (usize, u32) {
 /// More octaves never search more, nor lower `direct_triggers`, however the handles lie: of points in whole hundredths.
 #[test]
 fn more_octaves_search_no_more() {
-    for i in 0..700 * times() {
+    for i in 0..350 * times() {
         let rng = &mut Rng::new(51, i);
         let mut t = [0; 4].map(|_| rng.below(101) as i32);
         t.sort();

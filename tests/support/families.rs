@@ -360,9 +360,9 @@ type Design = (&'static str, u64, fn(&mut Rng) -> Curve);
 /// What people draw: whole milliseconds, plain fractions, the same number twice. A random share of the exposure is
 /// never 5/8, and whole numbers give it at once.
 pub const DESIGNS: [Design; 3] = [
-    ("typical, in hundredths", 40, |rng| typical(rng, 0.01)),
+    ("typical, in hundredths", 20, |rng| typical(rng, 0.01)),
     // In whole ms, the same in s, or in another unit; some far from time 0, or never dark, in tenths.
-    ("whole numbers", 150, |rng| {
+    ("whole numbers", 75, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         let units = match rng.below(3) {
             0 => 1.0,
@@ -374,7 +374,7 @@ pub const DESIGNS: [Design; 3] = [
         shutter_of(rng, lengths, ramp, [units, far, low])
     }),
     // From either side: exactly so many parts of `all` of the exposure before the join.
-    ("joins at plain fractions", 100, |rng| {
+    ("joins at plain fractions", 50, |rng| {
         let all = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 3.0, 5.0, 6.0, 7.0, 9.0, 10.0, 12.0, 20.0, 100.0];
         let all = all[rng.below(15) as usize];
         let part = whole(rng, 1, all as u64 - 1);

@@ -13,7 +13,7 @@ use crate::generator::{Random, asked, each};
 use crate::support::Folder;
 
 /// So many files, if no one asks for another number.
-const FILES: u32 = 800;
+const FILES: u32 = 400;
 /// No file of this size may take longer, on a busy machine and with all debug checks; in seconds.
 const PATIENCE: f64 = 10.0;
 
