@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use shutter_fit::delay::Sync;
 use shutter_fit::fact::{Fact, Message};
-use shutter_fit::trace::{self, Column, Light, Reading, Recording, Refusal, Tell, Trace};
+use shutter_fit::trace::{self, Light, Reading, Recording, Refusal, Tell, Trace};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Fit, From, Options, report, speed};
 use shutter_plan::fitted::{curve_shutter, shutter};
@@ -73,14 +73,13 @@ struct Fitted {
 /// Reads the trace in `bytes`, and fits it.
 pub fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Measured {
     let names = trace::columns(&bytes).unwrap_or_default();
-    let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
     let options = trace::Options {
         unit: asked.unit,
-        columns,
+        columns: asked.columns.iter().map(usize::to_string).collect(),
         rate: asked.rate,
         from: asked.from,
         to: asked.to,
-        sync: asked.sync.map(Column::Number),
+        sync: asked.sync.map(|number| number.to_string()),
     };
     let recording = trace::open(&bytes, &options);
     let pairs = |trace: &Trace| trace.times.iter().zip(&trace.values).map(|(t, v)| [*t, *v]).collect();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
 use shutter_fit::delay::{self, Delay};
-use shutter_fit::trace::{self, Column, Light, Tell, Warning};
+use shutter_fit::trace::{self, Light, Tell, Warning};
 use shutter_fit::unit::{Unit, count, rounded, short, stops};
 use shutter_fit::{Kind, Options, Record};
 
@@ -102,7 +102,7 @@ impl Args {
             return Ok((self.columns.len() == 2).then(|| usize::from(self.rate.is_none())));
         };
         let mut alone = self.asked().0;
-        alone.columns = vec![Column::parse(first)];
+        alone.columns = vec![first.clone()];
         // A column of signals has a time beside it.
         let is_signal = Read::new(&self.trace, &alone, &Options::default(), None)
             .is_ok_and(|read| read.reading.time.is_some_and(|time| time.0 != read.reading.signal.0));
@@ -112,8 +112,7 @@ impl Args {
     /// How a trace is read, and what its fit is asked for.
     fn asked(&self) -> (trace::Options, Options) {
         let &Self { unit, rate, from, to, light, full, frame, model, mains, .. } = self;
-        let columns = self.columns.iter().map(|column| Column::parse(column)).collect();
-        let how = trace::Options { unit, columns, rate, from, to, sync: None };
+        let how = trace::Options { unit, columns: self.columns.clone(), rate, from, to, sync: None };
         (how, Options { light, full, frame, model, mains, ..Options::default() })
     }
 }

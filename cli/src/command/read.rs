@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
-use shutter_fit::trace::{self, Column, Reading, Recording, Tell, Trace, Warning};
+use shutter_fit::trace::{self, Reading, Recording, Tell, Trace, Warning};
 use shutter_fit::{Options, Sync};
 
 use super::input::{self, file_name, shown};
@@ -17,7 +17,7 @@ const SAME: f64 = 0.01;
 #[derive(Clone)]
 pub enum Asked {
     Time(f64),
-    Column(Column),
+    Column(String),
     File(PathBuf),
 }
 
@@ -36,7 +36,7 @@ pub fn sync(text: &str) -> Result<Asked, Infallible> {
     Ok(match time(text) {
         Ok(time) => Asked::Time(time),
         Err(_) if Path::new(text).is_file() => Asked::File(text.into()),
-        Err(_) => Asked::Column(Column::parse(text)),
+        Err(_) => Asked::Column(text.into()),
     })
 }
 
@@ -73,7 +73,7 @@ impl<'a> Read<'a> {
             Some(Asked::File(file)) => {
                 let told = |reason: String| format!("{}: {reason}", shown(file));
                 // Its names are its own.
-                let is_number = |column: &Column| matches!(column, Column::Number(_));
+                let is_number = |column: &String| column.parse::<usize>().is_ok();
                 let mut how = how.clone();
                 if !how.columns.iter().all(is_number) {
                     how.columns.clear();

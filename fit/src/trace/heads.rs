@@ -1,6 +1,6 @@
 //! The columns of a table, or the channels of a sound: their names, and which are asked for.
 
-use super::asked::{Column, Options};
+use super::asked::Options;
 use super::numbers::short_of;
 use super::told::Refusal;
 
@@ -41,11 +41,11 @@ impl Heads {
     }
 
     /// A column by its number, or by its name.
-    fn column(&self, column: &Column) -> Result<usize, Refusal> {
-        let found = match column {
-            Column::Number(number) => number.checked_sub(1),
-            Column::Name(name) => {
-                let wanted = name.to_ascii_lowercase();
+    fn column(&self, column: &str) -> Result<usize, Refusal> {
+        let wanted = column.trim().to_ascii_lowercase();
+        let found = match wanted.parse::<usize>() {
+            Ok(number) => number.checked_sub(1),
+            Err(_) => {
                 let has = |k: &usize| self.name(*k).is_some_and(|n| n.to_ascii_lowercase().contains(&wanted));
                 let exact = self.names[0].iter().position(|n| n.to_ascii_lowercase() == wanted);
                 exact.or_else(|| (0..self.width).find(has))
@@ -53,7 +53,7 @@ impl Heads {
         };
         let there = || self.told(&(0..self.width).collect::<Vec<_>>());
         let found = found.filter(|k| *k < self.width);
-        found.ok_or_else(|| Refusal::NoColumn { name: column.to_string(), there: there() })
+        found.ok_or_else(|| Refusal::NoColumn { name: column.into(), there: there() })
     }
 
     /// The columns that are asked for, and the sync's, which is none of these and holds no times.
@@ -62,16 +62,9 @@ impl Heads {
         options: &Options,
         holds_times: impl Fn(usize) -> bool,
     ) -> Result<(Vec<usize>, Option<usize>), Refusal> {
-        let mut asked = Vec::new();
-        for column in &options.columns {
-            let k = self.column(column)?;
-            if asked.contains(&k) {
-                return Err(Refusal::SameColumn { name: self.quoted(k) });
-            }
-            asked.push(k);
-        }
+        let asked = options.columns.iter().map(|column| self.column(column)).collect::<Result<Vec<_>, _>>()?;
         let Some(column) = &options.sync else { return Ok((asked, None)) };
-        let named = self.names[0].iter().position(|name| *name == column.to_string());
+        let named = self.names[0].iter().position(|name| name == column);
         let reason = match (self.column(column), named) {
             (Err(refusal), _) => format!("{refusal}; a time has a unit, as in 1.5ms, and a file has to be there"),
             // A number may be a name as well.

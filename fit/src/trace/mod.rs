@@ -20,7 +20,7 @@ mod times;
 mod told;
 mod wav;
 
-pub use asked::{Column, Options};
+pub use asked::Options;
 pub(crate) use coupling::{Rates, guessed, start, undone};
 pub use edges::Switch;
 pub(crate) use edges::{Edge, Edges, Starts, edges};

@@ -115,11 +115,10 @@ pub fn counted_on(time: f64, last: f64) -> f64 {
 /// Is it a number whose marks may part its thousands: `1,234` or `12,345,678`?
 pub fn is_grouped(field: &str, mark: char) -> bool {
     let mut groups = field.trim_start_matches(['-', '+']).split(mark);
-    let digits = |group: &str| group.bytes().all(|b| b.is_ascii_digit());
     let first = groups.next().unwrap_or_default();
-    let mut more = groups.peekable();
-    let is_first = (1..=3).contains(&first.len()) && digits(first) && !first.starts_with('0');
-    is_first && more.peek().is_some() && more.all(|group| group.len() == 3 && digits(group))
+    let is_first = (1..=3).contains(&first.len()) && !first.starts_with('0');
+    let is_group = |group: &str| group.len() == 3 && group.bytes().all(|b| b.is_ascii_digit());
+    field.contains(mark) && is_first && first.bytes().all(|b| b.is_ascii_digit()) && groups.all(is_group)
 }
 
 /// As much of a field as a message can hold.

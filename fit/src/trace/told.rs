@@ -79,7 +79,6 @@ messages! {
          seconds of a day, as in 14:06:09.25";
     TwoTimes { first: String, second: String } [Remedy::Columns("")]
         "columns {first} and {second} hold different times; say which one, and the signal that belongs to it";
-    SameColumn { name: String } [Remedy::Columns("")] "column {name} is asked for twice";
     Blocks { line: u64, text: String }
         "line {line}: '{text}' between the rows may begin another recording; put each into a file of its own, or leave \
          the line out";

@@ -5,7 +5,7 @@
 
 use std::sync::LazyLock;
 
-use shutter_fit::trace::{self, Column, Light, Tell, open, pulses};
+use shutter_fit::trace::{self, Light, Tell, open, pulses};
 use shutter_fit::unit::Unit;
 
 use crate::generator::{Random, each};
@@ -165,7 +165,6 @@ const EXPORTS: &[Export] = &[
     ("Time (s),gate,light\n", "{t},{g},{v}", "--columns 3", "3 column 1, \"Time (s)\" in s, by its name"),
     ("Time (s),gate,light\n", "{t},{g},{v}", "--columns gate", "2 column 1, \"Time (s)\" in s, by its name=7"),
     ("Time (s),gate,light\n", "{t},{g},{v}", "--columns 1,2,3", "3 column 1, \"Time (s)\" in s|second_signal"),
-    ("Time (s),gate,light\n", "{t},{g},{v}", "--columns 2,gate", "!2, \"gate\" is asked for twice"),
     ("Time (s),gate,light\n", "{t},{g},{v}", "--columns 3 --sync gate", "3 in s, by its name"),
     ("Time (s),gate,light\n", "{t},{g},{v}", "--unit ms",
         "3 in ms, as asked, where its name says s=0.005|second_signal"),
@@ -192,12 +191,12 @@ fn options(asked: &str) -> trace::Options {
     for (option, value) in asked.split("--").filter_map(|option| option.trim().split_once(' ')) {
         let number = || Some(value.parse().expect("a number"));
         match option {
-            "columns" => options.columns = value.split(',').map(Column::parse).collect(),
+            "columns" => options.columns = value.split(',').map(String::from).collect(),
             "unit" => options.unit = Unit::ALL.into_iter().find(|unit| unit.name() == value),
             "rate" => options.rate = number(),
             "from" => options.from = number(),
             "to" => options.to = number(),
-            _ => options.sync = Some(Column::parse(value)),
+            _ => options.sync = Some(value.into()),
         }
     }
     options
