@@ -39,7 +39,7 @@ fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     let step = sampling_interval(times);
     writeln!(out, "trace        {name}")?;
     if let Some(reading) = &fit.reading {
-        writeln!(out, "signal       {}", reading.signal())?;
+        writeln!(out, "signal       {}", reading.among(&reading.signal))?;
         writeln!(out, "times        {}", reading.times())?;
         if let Some(sync) = &reading.sync {
             writeln!(out, "sync         {}", reading.among(sync))?;

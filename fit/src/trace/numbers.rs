@@ -34,22 +34,15 @@ impl Form {
         [',', ';', '\t', ' '].into_iter().flat_map(|delimiter| [false, true].map(|comma| Self { delimiter, comma }))
     }
 
-    /// The fields of a line, without blanks and quotes around them. A quote that is never closed must not swallow the
-    /// rest of the file: so quotes count only where a line has them in pairs.
+    /// The fields of a line, without blanks and quotes around them. A comma in quotes is none, if they come in pairs:
+    /// one that is never closed must not swallow the rest.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let Self { delimiter, .. } = self;
-        let quotes = if delimiter == ',' { line.matches('"').count() } else { 0 };
-        let is_quoted = quotes > 0 && quotes.is_multiple_of(2);
-        let mut rest = Some(line.trim_end_matches(['\r', '\n']));
-        let fields = std::iter::from_fn(move || {
-            let line = rest?;
-            let from = match line.trim_start().strip_prefix('"').filter(|_| is_quoted) {
-                Some(inside) => line.len() - inside.len() + inside.find('"').unwrap_or(0),
-                None => 0,
-            };
-            let end = line[from..].find(delimiter).map(|k| from + k);
-            rest = end.map(|k| &line[k + delimiter.len_utf8()..]);
-            Some(&line[..end.unwrap_or(line.len())])
+        let has_pairs = delimiter == ',' && line.matches('"').count().is_multiple_of(2);
+        let mut is_inside = false;
+        let fields = line.split(move |c| {
+            is_inside ^= c == '"' && has_pairs;
+            c == delimiter && !is_inside
         });
         let fields = fields.map(|field| field.trim().trim_matches('"').trim());
         fields.filter(move |field| !(delimiter == ' ' && field.is_empty()))

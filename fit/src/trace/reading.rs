@@ -85,11 +85,6 @@ pub fn shown((number, name): &Named, of: Option<usize>) -> String {
 }
 
 impl Reading {
-    /// The signal, and its place among all columns.
-    pub fn signal(&self) -> String {
-        self.among(&self.signal)
-    }
-
     /// A column, and its place among all.
     pub fn among(&self, named: &Named) -> String {
         shown(named, Some(self.columns))
@@ -132,6 +127,6 @@ impl Reading {
 
 impl fmt::Display for Reading {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}; times: {}", self.signal(), self.times())
+        write!(out, "{}; times: {}", self.among(&self.signal), self.times())
     }
 }
