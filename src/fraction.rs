@@ -13,7 +13,7 @@ pub(crate) enum Side {
 use Side::{End, Start};
 
 impl Side {
-    #[cfg(test)]
+    #[cfg(all(test, feature = "_measure"))]
     pub(crate) const BOTH: [Self; 2] = [Start, End];
 
     pub(crate) const fn end_if(is_end: bool) -> Self {
