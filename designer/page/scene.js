@@ -219,7 +219,7 @@ function placed(parts, times) {
 export const hash = ({ scene: { given, ...scene }, speeds }) =>
   `#${encodeURI(JSON.stringify({ ...scene, speeds }, (_, it) => it ?? undefined))}`;
 
-/** What such a part of an address holds; an error says what is wrong. */
+/** What such a part of an address holds; an error says what cannot be drawn. All else the program refuses. */
 export function fromAddress(text) {
   const require = (key, is) => {
     if (!is) throw new Error(`${key}: no scene has this`);
@@ -230,16 +230,12 @@ export function fromAddress(text) {
   const told = { shutter: { ...shutter, unit }, flashes: { ...flashes, unit } };
   const scene = { ...fromScene(String(name ?? 'linked').slice(0, 60), told), own, given: GIVEN };
   const isNumbers = (list, n) => Array.isArray(list) && list.length === n && list.every(Number.isFinite);
-  const isOf = (kind, x) => (Array.isArray(kind) ? kind.includes(x) : kind === 'yes' ? typeof x === 'boolean'
-    : kind === 'count' ? Number.isInteger(x) : Number.isFinite(x));
-  for (const [table, kinds] of [[scene.shutter, SHUTTER], [scene.flashes, FLASHES]]) {
-    for (const key in kinds) require(key, table[key] === null || isOf(kinds[key], table[key]));
+  const { shutter: { shutteropening: inner }, flashes: { triggers } } = scene;
+  for (const key of FIELDS) {
+    require(key, [scene.shutter, scene.flashes].every((it) => it[key] == null || Number.isFinite(it[key])));
   }
-  const { shutter: { shutteropening: inner, measured }, flashes: { triggers } } = scene;
   require('times', isNumbers(TIMES.map((key) => scene.shutter[key]), 4));
-  require('triggers', triggers !== null);
   require('shutteropening', inner === null || isNumbers(inner, 8));
-  require('measured', measured === null || Object(measured) === measured);
   require('own', own === null || (Number.isFinite(own.open_start) && isNumbers(own.trigger_times, triggers)));
   require('speeds', speeds === null || (Array.isArray(speeds) && speeds.every(isSpeed)));
   return { scene, speeds };
