@@ -147,7 +147,8 @@ test('nothing is cut at 1440, 1024, 390 and 320 pixels, nor with large letters; 
     assert.deepEqual(pixels > 400 ? cut : cut.filter((id) => !/^[ty]\d$/.test(id)), [], String(pixels));
     assert.equal(await width(), pixels);
   }
-  await open(SOFT, { width: 390, height: 844, hasTouch: true });
+  await open(link({ timer_hz: 4000, min_gap: 0 }), { width: 390, height: 844, hasTouch: true });
+  assert.equal((await told(), await width()), 390, 'nor what is doubtful');
   for (const id of ['begin', 'graph']) assert.ok((await page.box(`#${id}`)).y < 500, 'it is on the first screen');
   const graph = await page.box('#graph');
   await page.touchscreen.tap(graph.x + graph.width / 2, graph.y + graph.height / 3);
