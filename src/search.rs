@@ -130,9 +130,6 @@ const fn step<const N: usize>(c: &[f32; N], x: f32, missing: f32) -> f32 {
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// [`from_log`] is too great by up to 0.086 in the logarithm. A root is lowered by the middle of that.
-const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
-
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
@@ -149,7 +146,7 @@ const fn guess(c: &[f32], sought: f32) -> f32 {
         least = if root < least { root } else { least };
         i += 1;
     }
-    from_log(least - MIDDLE)
+    from_log(least)
 }
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand. 0 is taken

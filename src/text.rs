@@ -22,10 +22,9 @@ impl Text {
     }
 
     pub(crate) const fn number(mut self, n: u32) -> Self {
-        let first = self.length;
         let mut divisor = 1_000_000_000;
         while divisor > 0 && self.length < self.bytes.len() {
-            if n >= divisor || divisor == 1 || self.length > first {
+            if n >= divisor || divisor == 1 {
                 self.bytes[self.length] = b'0' + (n / divisor % 10) as u8;
                 self.length += 1;
             }
