@@ -123,6 +123,8 @@ fn a_certificate_has_room_for_each_error() {
     let ramps = [[(1.0, 0.0), (2.0, 1.0)], [(3.0, 1.0), (4.0, 0.0)]].map(|[from, to]| CubicBezier::line(from, to));
     let integrated = crate::curve::Curve::new(&ramps[0], &ramps[1]).expect("a shutter");
     let path = Path::new(&integrated, &ramps, Side::Start, Side::Start);
+    // The curve lasts 3.
+    assert_eq!([0.5, 2.5].map(|since_end| path.size_of_time(since_end)), [1.5, 3.0]);
     // In an lsb in which these errors are far beyond their limits, all points are sampled, and in a small one half.
     for (top, lsb) in [(0.234f32.to_bits(), -40), (LEAST_TOP, -40), (0.234f32.to_bits(), -90), (LEAST_TOP, -90)] {
         let (span, lsb) = (|| Span::new([0.0, 0.5], top).expect("an octave"), power_of_two_f64(lsb));
