@@ -100,32 +100,17 @@ pub fn pool<'a>(delays: impl Iterator<Item = (f64, &'a mut Delay)>) {
 }
 
 /// What a record's sync tells.
-struct Synced {
-    starts: Starts,
-    /// What the sync does, where it was recorded; and of that record from sample to sample.
-    switch: Option<Switch>,
-    step: f64,
-}
-
-impl Synced {
-    fn new(sync: &Sync, frames: &[Frame]) -> Result<Self, String> {
-        match sync {
-            Sync::Edge(time) => {
-                let mut starts = Starts::default();
-                starts.of.resize(frames.len(), None);
-                // It may come while the shutter is open, as that of an X contact does.
-                let own = frames.iter().position(|frame| frame.crossings[5] > *time);
-                let own = own.ok_or("the given edge comes after all pulses")?;
-                starts.of[own] = Some(Edge { time: *time, error: 0.0 });
-                Ok(Self { starts, switch: None, step: 0.0 })
-            }
-            Sync::Channel(channel) => {
-                let Edges { switch, starts } = edges(channel, frames)?;
-                let step = sampling_interval(&channel.times);
-                Ok(Self { starts, switch: Some(switch), step })
-            }
-        }
-    }
+fn synced(sync: &Sync, frames: &[Frame]) -> Result<Edges, String> {
+    let time = match sync {
+        Sync::Channel(channel) => return edges(channel, frames),
+        Sync::Edge(time) => *time,
+    };
+    let mut starts = Starts::default();
+    starts.of.resize(frames.len(), None);
+    // It may come while the shutter is open, as that of an X contact does.
+    let own = frames.iter().position(|frame| frame.crossings[5] > time);
+    starts.of[own.ok_or("the given edge comes after all pulses")?] = Some(Edge { time, error: 0.0 });
+    Ok(Edges { switch: None, step: 0.0, starts })
 }
 
 /// The delay where the shot `asked` has this signal, starts to open at `start`, and has these triggers, and what is
@@ -143,17 +128,17 @@ pub(crate) fn measure(
 ) -> Result<Option<(Delay, Vec<Warning>)>, Refusal> {
     let refused = |reason: &str| Err(Refusal::NoDelay { reason: reason.into() });
     let syncs = records.iter().filter_map(|record| Some((record.sync.as_ref()?, &record.pulses.frames)));
-    let synced: Result<Vec<_>, _> = syncs.map(|(sync, frames)| Synced::new(sync, frames)).collect();
+    let synced: Result<Vec<_>, _> = syncs.map(|(sync, frames)| synced(sync, frames)).collect();
     let synced = synced.map_err(|reason| Refusal::NoDelay { reason })?;
     if synced.is_empty() {
         return Ok(None);
     }
     let fitted = &shots[asked];
-    let falls = |it: &Synced| it.switch.map(|switch| switch.falls());
+    let falls = |it: &Edges| it.switch.map(|switch| switch.falls());
     if synced.len() < records.len() || synced.iter().any(|it| falls(it) != falls(&synced[0])) {
         return refused("the sync is not the same in all traces: it falls, rises or is missing");
     }
-    let Synced { switch, step, .. } = synced[fitted.record];
+    let Edges { switch, step, .. } = synced[fitted.record];
     let is_given = switch.is_none();
     let edges: Vec<Option<Edge>> = synced.iter().flat_map(|it| it.starts.of.clone()).collect();
     if is_given && edges[asked].is_none() {

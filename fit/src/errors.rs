@@ -1,7 +1,7 @@
 //! What the noise makes of the results: standard errors from the normal equations, and beside them what a ramp's foot,
 //! a low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
 
-use crate::curve::{CLOSING, CONTROLS, Curve, Exposure, OPENING, PARAMETERS, PLATEAU, START, Whole, fractions};
+use crate::curve::{CLOSING, CONTROLS, Curve, OPENING, PARAMETERS, PLATEAU, START, Whole, fractions};
 use crate::frame::FrameFits;
 use crate::hum;
 use crate::missed::least_open;
@@ -124,14 +124,14 @@ impl Results {
 /// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by
 /// its Akaike weight, with its own variance and how far it lies from this one.
 pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
-    let mut chosen = OfKind::new(fits, kind).results(n);
+    let mut chosen = of_kind(fits, kind, n);
     let freer = &Kind::ALL[kind as usize..];
     let least = freer.iter().map(|k| fits.aic(*k)).fold(f64::INFINITY, f64::min);
     let weights = freer.iter().map(|k| (*k, (0.5 * (least - fits.aic(*k))).exp()));
     let sum: f64 = weights.clone().map(|(_, weight)| weight).sum();
     let mut variances = vec![0.0; chosen.all().count()];
     for (k, weight) in weights.filter(|(_, weight)| *weight > 1e-3 * sum) {
-        let mut other = if k == kind { chosen.clone() } else { OfKind::new(fits, k).results(n) };
+        let mut other = if k == kind { chosen.clone() } else { of_kind(fits, k, n) };
         for ((variance, to), of) in variances.iter_mut().zip(chosen.all()).zip(other.all()) {
             *variance += weight / sum * (of.error.powi(2) + (of.value - to.value).powi(2));
         }
@@ -140,149 +140,95 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
     chosen.widened(fits, kind)
 }
 
-/// One kind's curve with all that its errors come from.
-struct OfKind<'a> {
-    fits: &'a FrameFits,
-    kind: Kind,
-    integral: Exposure,
-    covariance: Covariance,
-    is_straight: bool,
-    /// Noise hides how high a peak is, and so what full light is.
-    is_peak: bool,
-    /// For how long nobody knows the shape of each ramp's foot.
-    feet: [f64; 2],
-    /// The standard error of the whole length, by the noise.
-    length: f64,
-}
+/// One kind's curve by itself.
+fn of_kind(fits: &FrameFits, kind: Kind, n: u32) -> Results {
+    let integral = fits.exposure(kind);
+    let curve = integral.curve;
+    let Curve { opening, plateau, closing, .. } = curve;
+    let (whole, area, all) = (integral.whole().moves, integral.area(), curve.length());
+    let covariance = Covariance::new(fits, kind);
+    let is_straight = kind <= Kind::Trapezoid;
+    // Noise hides how high a peak is, and so what full light is.
+    let is_peak = plateau < PEAK * all;
+    // For how long nobody knows the shape of each ramp's foot, and the light that it may hold or not.
+    let feet = if is_straight { [0.0; 2] } else { integral.feet(FOOT) };
+    let unseen = feet.map(|time| FOOT * time);
+    let searched = |whole: Whole, is_linear: bool| {
+        let linear = covariance.error(&whole.of(&curve).1);
+        if is_linear { linear } else { searched(fits, kind, whole, linear, covariance.variance) }
+    };
+    // By the noise.
+    let length = searched(Whole::Length, is_straight);
+    let light = unseen.into_iter().fold(searched(Whole::Area, !is_peak), f64::hypot);
+    let exposure = Measured { value: area, error: light };
 
-impl<'a> OfKind<'a> {
-    fn new(fits: &'a FrameFits, kind: Kind) -> Self {
-        let integral = fits.exposure(kind);
-        let curve = integral.curve;
-        let is_straight = kind <= Kind::Trapezoid;
-        let covariance = Covariance::new(fits, kind);
-        let length = covariance.error(&Curve::LENGTH);
-        let mut of_kind = Self {
-            fits,
-            kind,
-            integral,
-            covariance,
-            is_straight,
-            is_peak: curve.plateau < PEAK * curve.length(),
-            feet: if is_straight { [0.0; 2] } else { integral.feet(FOOT) },
-            length,
-        };
-        if !is_straight {
-            of_kind.length = of_kind.searched(Whole::Length, length);
-        }
-        of_kind
-    }
+    let value = area / all;
+    // Where both are linear in the samples, what they have in common cancels; else the two errors are taken apart.
+    let error = if is_straight && !is_peak {
+        covariance.error(&std::array::from_fn(|k| (whole[k] - value * Curve::LENGTH[k]) / all))
+    } else {
+        let ends = feet.into_iter().fold(length, f64::hypot);
+        (light / all).hypot(value * ends / all)
+    };
+    let efficiency = Measured { value, error };
 
-    fn results(&self, n: u32) -> Results {
-        let exposure = self.exposure();
-        let efficiency = self.efficiency(exposure);
-        Results { exposure, efficiency, start: self.start(), parts: self.parts(), triggers: self.triggers(n) }
-    }
-
-    /// The light that each foot may hold or not.
-    fn unseen(&self) -> [f64; 2] {
-        self.feet.map(|time| FOOT * time)
-    }
-
-    fn exposure(&self) -> Measured {
-        let linear = self.covariance.error(&self.integral.whole().moves);
-        let noise = if self.is_peak { self.searched(Whole::Area, linear) } else { linear };
-        let error = self.unseen().into_iter().fold(noise, f64::hypot);
-        Measured { value: self.integral.area(), error }
-    }
-
-    /// The exposure by the length.
-    fn efficiency(&self, Measured { value: area, error: light }: Measured) -> Measured {
-        let length = self.integral.curve.length();
-        let value = area / length;
-        // Where both are linear in the samples, what they have in common cancels; else the two errors are taken apart.
-        if self.is_straight && !self.is_peak {
-            let whole = self.integral.whole().moves;
-            let moves = std::array::from_fn(|k| (whole[k] - value * Curve::LENGTH[k]) / length);
-            return Measured { value, error: self.covariance.error(&moves) };
-        }
-        let ends = self.feet.into_iter().fold(self.length, f64::hypot);
-        Measured { value, error: (light / length).hypot(value * ends / length) }
-    }
-
-    /// When it starts to open.
-    fn start(&self) -> Measured {
-        let curve = self.integral.curve;
-        Measured { value: curve.start, error: self.end(START, curve.opening).hypot(self.feet[0]) }
-    }
-
-    /// How long it opens, is fully open, and closes. Nobody knows a ramp's shape near full light either.
-    fn parts(&self) -> [Measured; 3] {
-        let Curve { opening, plateau, closing, .. } = self.integral.curve;
-        let near = self.integral.feet(1.0 - FOOT);
-        let [first, last] = if self.is_straight { [0.0; 2] } else { [opening - near[0], closing - near[1]] };
-        let edges = self.covariance.edges.map(f64::sqrt);
-        [
-            (OPENING, opening, opening, self.feet[0].hypot(first).hypot(edges[0])),
-            (PLATEAU, plateau, opening + closing, first.hypot(last)),
-            (CLOSING, closing, closing, self.feet[1].hypot(last).hypot(edges[1])),
-        ]
-        .map(|(k, value, ramps, unseen)| Measured { value, error: self.end(k, ramps).hypot(unseen) })
-    }
-
-    /// The standard error of a time of the curve. Soft ramps hide it as they hide the length, and each ramp as much of
-    /// it as it is long. The linear error counts as well, but where a shape makes up for a shift it is too large: the
-    /// length's serves as its bound.
-    fn end(&self, parameter: usize, ramps: f64) -> f64 {
-        let Curve { opening, closing, .. } = self.integral.curve;
+    // A time of the curve. Soft ramps hide it as they hide the length, and each ramp as much of it as it is long. The
+    // linear error counts as well, but where a shape makes up for a shift it is too large: the length's serves as its
+    // bound.
+    let time = |parameter: usize, value: f64, ramps: f64, beside: f64| {
         let mut moves = [0.0; PARAMETERS];
         moves[parameter] = 1.0;
-        let linear = self.covariance.error(&moves);
-        if self.is_straight {
-            return linear;
-        }
+        let linear = covariance.error(&moves);
         // Where there is no ramp, nothing says where the length is hidden.
         let share = if opening + closing > 0.0 { ramps / (opening + closing) } else { 1.0 };
-        (self.length * share).hypot(linear.min(self.length))
-    }
+        let noise = if is_straight { linear } else { (length * share).hypot(linear.min(length)) };
+        Measured { value, error: noise.hypot(beside) }
+    };
+    // Nobody knows a ramp's shape near full light either.
+    let near = integral.feet(1.0 - FOOT);
+    let [first, last] = if is_straight { [0.0; 2] } else { [opening - near[0], closing - near[1]] };
+    let edges = covariance.edges.map(f64::sqrt);
+    let parts = [
+        time(OPENING, opening, opening, feet[0].hypot(first).hypot(edges[0])),
+        time(PLATEAU, plateau, opening + closing, first.hypot(last)),
+        time(CLOSING, closing, closing, feet[1].hypot(last).hypot(edges[1])),
+    ];
 
-    fn triggers(&self, n: u32) -> Vec<Measured> {
-        let [first, last] = self.unseen();
-        let trigger = |u: f64| {
-            let (value, moves) = self.integral.trigger(u);
-            // More light in the first foot makes a trigger earlier, more in the last one makes it later.
-            let light = ((1.0 - u) * first).hypot(u * last);
-            let by_feet = light / least_open(&self.integral, value);
-            Measured { value, error: self.covariance.error(&moves).hypot(by_feet) }
-        };
-        fractions(n).map(trigger).collect()
-    }
+    let trigger = |u: f64| {
+        let (value, moves) = integral.trigger(u);
+        // More light in the first foot makes a trigger earlier, more in the last one makes it later.
+        let light = ((1.0 - u) * unseen[0]).hypot(u * unseen[1]);
+        let by_feet = light / least_open(&integral, value);
+        Measured { value, error: covariance.error(&moves).hypot(by_feet) }
+    };
+    let triggers = fractions(n).map(trigger).collect();
+    Results { exposure, efficiency, start: time(START, curve.start, opening, feet[0]), parts, triggers }
+}
 
-    /// The standard error of what is not linear in the samples, by how far the sum of squares lets it go either way.
-    ///
-    /// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of
-    /// the shift shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
-    fn searched(&self, whole: Whole, linear: f64) -> f64 {
-        const SIDE: f64 = 1.96;
-        let value = whole.of(&self.integral.curve).0;
-        let (least, most) = (1e-4 * value, 0.5 * value);
-        let side = |way: f64| {
-            // Where the linear error is unknown, not a number, `min` takes the other.
-            let mut by = (SIDE * linear).min(0.1 * value).max(least);
-            let mut near = self.fits.of(self.kind).solution.signal;
-            for _ in 0..8 {
-                let cost = self.fits.cost_of(self.kind, whole, way * by, &mut near);
-                let cost = cost / (SIDE * SIDE * self.covariance.variance);
-                if (0.8..1.25).contains(&cost) {
-                    break;
-                }
-                // Between a square and the fourth power.
-                by = (by * cost.max(1e-3).powf(-1.0 / 3.0)).clamp(least, most);
+/// The standard error of what is not linear in the samples, by how far the sum of squares lets it go either way.
+///
+/// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of
+/// the shift shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
+fn searched(fits: &FrameFits, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
+    const SIDE: f64 = 1.96;
+    let signal = fits.of(kind).solution.signal;
+    let value = whole.of(&signal.curve).0;
+    let (least, most) = (1e-4 * value, 0.5 * value);
+    let side = |way: f64| {
+        // Where the linear error is unknown, not a number, `min` takes the other.
+        let mut by = (SIDE * linear).min(0.1 * value).max(least);
+        let mut near = signal;
+        for _ in 0..8 {
+            let cost = fits.cost_of(kind, whole, way * by, &mut near) / (SIDE * SIDE * variance);
+            if (0.8..1.25).contains(&cost) {
+                break;
             }
-            by
-        };
-        side(1.0).max(side(-1.0)) / SIDE
-    }
+            // Between a square and the fourth power.
+            by = (by * cost.max(1e-3).powf(-1.0 / 3.0)).clamp(least, most);
+        }
+        by
+    };
+    side(1.0).max(side(-1.0)) / SIDE
 }
 
 /// How the parameters of a fitted curve vary together.

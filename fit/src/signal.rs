@@ -219,57 +219,49 @@ impl Signal {
         self.pack().len()
     }
 
+    /// Its numbers but the curve's, each with its bounds.
+    fn beside(&mut self) -> Vec<(&mut f64, Bounds)> {
+        let any = |number| (number, ANY);
+        let mut all = vec![any(&mut self.dark), any(&mut self.gain)];
+        all.extend(self.drift.iter_mut().map(any));
+        if let Some(Hum { frequency, range, cosine, sine }) = &mut self.hum {
+            all.extend([(frequency, *range), any(cosine), any(sine)]);
+        }
+        all.extend(self.flicker.iter_mut().flat_map(|flicker| &mut flicker.terms).map(any));
+        if let Some(Coupling { charge, rates, held }) = &mut self.coupling {
+            all.push(any(charge));
+            for rate in rates.iter_mut().flatten() {
+                let bounds = if *held { (*rate, *rate) } else { RATES };
+                all.push((rate, bounds));
+            }
+        }
+        all
+    }
+
     /// Its numbers, the curve's first.
     pub(super) fn pack(&self) -> Vec<f64> {
         let mut packed = self.kind.pack(&self.curve);
-        packed.extend([self.dark, self.gain]);
-        packed.extend(self.drift);
-        packed.extend(self.hum.iter().flat_map(|hum| [hum.frequency, hum.cosine, hum.sine]));
-        packed.extend(self.flicker.iter().flat_map(|flicker| flicker.terms));
-        if let Some(coupling) = self.coupling {
-            packed.push(coupling.charge);
-            packed.extend(coupling.rates());
-        }
+        packed.extend(self.clone().beside().into_iter().map(|(number, _)| *number));
         packed
     }
 
     /// The same with other numbers, as `pack` orders them.
     pub(super) fn unpack(&self, packed: &[f64]) -> Self {
-        let (curve, rest) = packed.split_at(self.kind.parameters());
-        let mut rest = rest.iter().copied();
-        let mut next = || rest.next().expect("as many numbers as `pack` gives");
-        Self {
-            kind: self.kind,
-            curve: self.kind.unpack(curve),
-            dark: next(),
-            gain: next(),
-            drift: self.drift.map(|_| next()),
-            hum: self.hum.map(|hum| {
-                let [frequency, cosine, sine] = [next(), next(), next()];
-                Hum { frequency, cosine, sine, ..hum }
-            }),
-            flicker: self.flicker.map(|flicker| Flicker { terms: flicker.terms.map(|_| next()), ..flicker }),
-            coupling: self.coupling.map(|Coupling { rates, held, .. }| {
-                let charge = next();
-                Coupling { charge, rates: rates.map(|rate| rate.map(|_| next())), held }
-            }),
-        }
+        let (curve, beside) = packed.split_at(self.kind.parameters());
+        let mut other = Self { curve: self.kind.unpack(curve), ..*self };
+        other.beside().into_iter().zip(beside).for_each(|((number, _), to)| *number = *to);
+        other
     }
 
     /// The bounds of each: no length below 0, control numbers and a hum's frequency in their range.
     pub(super) fn bounds(&self) -> Vec<Bounds> {
-        let mut bounds = vec![ANY; self.len()];
-        for (k, bound) in bounds.iter_mut().enumerate().take(self.kind.parameters()).skip(1) {
-            *bound = if k < CONTROLS { (0.0, f64::INFINITY) } else { BOUNDS[(k - CONTROLS) % 4] };
-        }
-        if let Some(hum) = self.hum {
-            bounds[self.kind.parameters() + 2 + self.drift.map_or(0, |_| 1)] = hum.range;
-        }
-        if let Some(coupling) = self.coupling {
-            let first = bounds.len() - coupling.rates().count();
-            let of = |rate| if coupling.held { (rate, rate) } else { RATES };
-            bounds[first..].iter_mut().zip(coupling.rates()).for_each(|(bound, rate)| *bound = of(rate));
-        }
+        let of_curve = |k| match k {
+            START => ANY,
+            CONTROLS.. => BOUNDS[(k - CONTROLS) % 4],
+            _ => (0.0, f64::INFINITY),
+        };
+        let mut bounds: Vec<Bounds> = (0..self.kind.parameters()).map(of_curve).collect();
+        bounds.extend(self.clone().beside().into_iter().map(|(_, bounds)| bounds));
         bounds
     }
 

@@ -2,7 +2,7 @@
 //! starts which shot.
 
 use super::pulse::Frame;
-use super::samples::{CONTRAST, Trace, median, noise};
+use super::samples::{CONTRAST, Trace, median, noise, sampling_interval};
 
 /// Between these shares of the way from the low level to the high one the state stays what it was.
 const SWITCH: (f64, f64) = (0.3, 0.7);
@@ -32,8 +32,9 @@ pub struct Edge {
 /// The edges before some shots.
 #[derive(Clone, Debug)]
 pub struct Edges {
-    /// What the sync does.
-    pub switch: Switch,
+    /// What the sync does, where it was recorded; and of that record from sample to sample.
+    pub switch: Option<Switch>,
+    pub step: f64,
     /// Which edge starts what.
     pub starts: Starts,
 }
@@ -87,7 +88,7 @@ pub fn edges(sync: &Trace, frames: &[Frame]) -> Result<Edges, String> {
     }
     let levels = if rests_high { [high, low] } else { [low, high] };
     let switch = Switch { levels, threshold: 0.5 * (low + high) };
-    Ok(Edges { switch, starts })
+    Ok(Edges { switch: Some(switch), step: sampling_interval(&sync.times), starts })
 }
 
 impl Starts {

@@ -19,6 +19,8 @@ const FEWEST: usize = 16;
 const FEWEST_LIT: usize = 8;
 /// The fewest samples in the dark on either side of a pulse.
 const FEWEST_DARK: usize = 3;
+/// So many more samples on either side are looked at than the pulse's length asks for.
+const MORE: f64 = 8.0;
 /// The shares of the light at which a pulse's ramps are timed.
 pub const QUARTERS: [f64; 3] = [0.25, 0.5, 0.75];
 /// The beginning and the end of a trace that differ by this share of the light are not both dark.
@@ -502,23 +504,13 @@ fn crossings(t: &[f64], share: &[f64], run: &Range<usize>, samples: &Range<usize
     crossings
 }
 
-/// The samples from so many pulses before a pulse to so many after it, and some more, up to the next gap.
+/// The samples from so many pulses before a pulse to so many after it, and a few more, in which a short one has its dark.
 fn window(times: &[f64], samples: &Range<usize>, crossings: Crossings, pulses: f64) -> (usize, usize) {
-    let around = pulses * (crossings[5] - crossings[0]);
+    let usual = sampling_interval(&times[samples.clone()]);
+    let around = pulses * (crossings[5] - crossings[0]) + MORE * usual;
     let from = times.partition_point(|t| *t < crossings[0] - around);
     let to = times.partition_point(|t| *t <= crossings[5] + around);
-    let usual = sampling_interval(&times[samples.clone()]);
-    let near = |a: usize, b: usize| times[b] - times[a] <= around.max(4.0 * usual);
-    let (mut first, mut end) = (from.max(samples.start), to.min(samples.end));
-    for _ in 0..8 {
-        if first > samples.start && near(first - 1, first) {
-            first -= 1;
-        }
-        if end < samples.end && near(end - 1, end) {
-            end += 1;
-        }
-    }
-    (first, end)
+    (from.max(samples.start), to.min(samples.end))
 }
 
 /// The time between a sample and the next one at which the light is at a level.
