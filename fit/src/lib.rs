@@ -50,6 +50,7 @@ pub use curve::Curve;
 pub use delay::{Delay, Sync};
 pub use errors::Measured;
 pub use json::json;
+use missed::Parts;
 pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test};
 pub use report::{because, text};
 pub use signal::{Flicker, Hum, Kind, Signal};
@@ -138,6 +139,11 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
         || (pulses.bent || pulses.coupled.is_some()) && !is_explained()
     {
         return Err(Refusal::Coupled);
+    }
+    // Of a record without any dark nothing tells the light.
+    let Parts { pulse, .. } = Parts::new(fits, Kind::Free);
+    if pulse.len() == pulses.trace.times.len() {
+        return Err(Refusal::CutPulse { begins: true, ends: true });
     }
     let candidates = choice::candidates(fits, n);
     let (chosen, reason) = choice::choose(options, &candidates, fits);

@@ -115,6 +115,14 @@ fn what_cannot_be_fitted_is_refused() {
             assert_eq!(refused, Some(Refusal::CutPulse { begins, ends }), "{light:?}");
         }
     }
+    // Cut on both ramps, slow and fast ones, so that none of the dark is recorded.
+    for ramp in [0.0001, 0.0004, 0.001, 0.002] {
+        for cut in [0.05, 0.3, 0.5, 0.7] {
+            let openness = |t: f64| (t / 0.012 * (0.01 - 2.0 * cut * ramp) + cut * ramp).min(0.01) / ramp;
+            let trace = sampled(|t| openness(t).min(openness(0.012 - t)).min(1.0), 1000, 0.002);
+            assert_eq!(refused(&trace), Some(Refusal::CutPulse { begins: true, ends: true }), "{ramp} {cut}");
+        }
+    }
     assert_eq!(refused(&part(0, 12)), Some(Refusal::TooFewSamples { samples: 12, required: 16 }));
     assert!(matches!(refused(&part(0, 160)), Some(Refusal::NoPulse { .. })));
     assert!(matches!(refused(&sampled(|_| 0.0, 1000, 0.0)), Some(Refusal::NoPulse { .. })));

@@ -170,6 +170,9 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
         warnings.push(Warning::Glitches { count: glitches });
     }
     let longest = runs.iter().map(|run| run.len()).max().unwrap_or(0);
+    if (bent || longest < FEWEST_LIT) && smooth.is_on_ramps() {
+        return Err(Refusal::CutPulse { begins: true, ends: true });
+    }
     if longest < FEWEST_LIT {
         return Err(Refusal::ShortPulse { samples: longest, required: FEWEST_LIT, pulses: runs.len() });
     }
@@ -333,6 +336,14 @@ impl Smooth {
         let top: Vec<f64> = above(middle);
         let full = if top.is_empty() { middle } else { median(top) };
         full - self.dark
+    }
+
+    /// Do the first and the last samples leave the ends' levels the same way, as on the ramps of a pulse that is cut?
+    fn is_on_ramps(&self) -> bool {
+        let (values, (first, last)) = (&self.values, ends(&self.values));
+        let off = |few: &[f64], end: f64| median(few.to_vec()) - end;
+        let (begins, ends) = (off(&values[..3], first), off(&values[values.len() - 3..], last));
+        begins * ends > 0.0 && begins.abs().min(ends.abs()) > STRAY * self.noise
     }
 
     /// Light moves a signal one way only, unless a capacitor takes the mean away.
