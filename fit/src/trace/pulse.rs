@@ -19,8 +19,6 @@ const FEWEST: usize = 16;
 const FEWEST_LIT: usize = 8;
 /// The fewest samples in the dark on either side of a pulse.
 const FEWEST_DARK: usize = 3;
-/// So many more samples on either side are looked at than the pulse's length asks for.
-const MORE: f64 = 8.0;
 /// The shares of the light at which a pulse's ramps are timed.
 pub const QUARTERS: [f64; 3] = [0.25, 0.5, 0.75];
 /// The beginning and the end of a trace that differ by this share of the light are not both dark.
@@ -450,14 +448,12 @@ fn frame(trace: &Trace, share: &[f64], run: &Range<usize>, samples: Range<usize>
     let (from, to) = window(t, &samples, crossings, 0.5);
     let usual = sampling_interval(&t[samples.clone()]);
     // Across a gap no sample stands for more than the usual time: nothing is known of the rest.
-    let owned = |step: f64| 0.5 * if step > 4.0 * usual { usual } else { step };
-    let exposure = (from..to)
-        .map(|i| {
-            let before = t[i] - t[i.saturating_sub(1).max(samples.start)];
-            let after = t[(i + 1).min(samples.end - 1)] - t[i];
-            (owned(before) + owned(after)) * (trace.values[i] - dark) / light
-        })
-        .sum();
+    let exposure = (from + 1..to).map(|i| {
+        let step = t[i] - t[i - 1];
+        let level = 0.5 * (trace.values[i - 1] + trace.values[i]) - dark;
+        level / light * if step > 4.0 * usual { usual } else { step }
+    });
+    let exposure = exposure.sum();
     // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell; but a tail
     // does not end there.
     let (from, mut to) = window(t, &samples, crossings, 2.0);
@@ -515,10 +511,9 @@ fn crossings(t: &[f64], share: &[f64], run: &Range<usize>, samples: &Range<usize
     crossings
 }
 
-/// The samples from so many pulses before a pulse to so many after it, and a few more, in which a short one has its dark.
+/// The samples from so many pulses before a pulse to so many after it.
 fn window(times: &[f64], samples: &Range<usize>, crossings: Crossings, pulses: f64) -> (usize, usize) {
-    let usual = sampling_interval(&times[samples.clone()]);
-    let around = pulses * (crossings[5] - crossings[0]) + MORE * usual;
+    let around = pulses * (crossings[5] - crossings[0]);
     let from = times.partition_point(|t| *t < crossings[0] - around);
     let to = times.partition_point(|t| *t <= crossings[5] + around);
     (from.max(samples.start), to.min(samples.end))

@@ -8,7 +8,7 @@
 //!
 //! `SEED=9000011` before it makes other traces, and `EACH=10` ten times as many of them.
 
-use shutter_fit::trace::Trace;
+use shutter_fit::trace::{Light, Trace, pulses};
 use shutter_fit::{Kind, Options, Sync, fit};
 
 use crate::families::{DISTURBED, FAMILIES, INSTRUMENTS, coupled, of_family, tuned, unseen};
@@ -282,6 +282,18 @@ fn capacitors_are_fitted_or_refused() {
         assert_eq!(count(&rows, |row| row.is_wrong), 0, "{poles:?}");
         assert!(count(&rows, |row| !row.covered) <= 2, "{poles:?}: not covered");
         assert_eq!(count(&rows, |row| !row.refused && !row.says("ac_coupled")), 0, "{poles:?}");
+    }
+}
+
+/// Of a pulse that is mostly ramps, full light is looked for at its top.
+#[test]
+fn full_light_is_found_above_the_ramps() {
+    for (plateau, least) in [(0.0, 0.86), (0.2, 0.99)] {
+        let ramp = 0.3 * (1.0 - plateau);
+        let truth = Truth::of(|t| ((0.3 - (t - 0.5).abs()) / ramp).clamp(0.0, 1.0));
+        let case = Recorder::new(1000.0, 1.0, 0.002).record(truth, &mut Random::new(9));
+        let light = pulses(&case.trace, Light::Auto).expect("a pulse").light();
+        assert!((least..1.01).contains(&light), "{plateau}: {light}");
     }
 }
 
