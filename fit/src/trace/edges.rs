@@ -2,12 +2,14 @@
 //! starts which shot.
 
 use super::pulse::Frame;
-use super::samples::{CONTRAST, Trace, median, noise, sampling_interval};
+use super::samples::{CONTRAST, Trace, noise, sampling_interval};
 
 /// Between these shares of the way from the low level to the high one the state stays what it was.
 const SWITCH: (f64, f64) = (0.3, 0.7);
 /// The most samples between the levels, as a share: with more there are no two levels.
 const BETWEEN: f64 = 0.15;
+/// Levels are looked for so often, each time by those found before.
+const SPLITS: usize = 20;
 /// A contact that closes again within so many seconds bounces.
 const BOUNCE: f64 = 0.01;
 
@@ -133,41 +135,28 @@ impl Starts {
     }
 }
 
-/// The medians of the low and of the high samples. Otsu's split finds them despite spikes; where the high ones are so
-/// few that it splits the noise, the middle of the range does.
+/// The medians of the low and of the high samples, which halfway between them parts: by the middle of the range at
+/// first, so that few samples are enough, and spikes count for nothing in the end.
 fn levels(values: &[f64]) -> Result<[f64; 2], String> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let (n, all) = (sorted.len(), sorted.iter().sum::<f64>());
-    if n == 0 {
+    let (Some(mut low), Some(mut high)) = (sorted.first().copied(), sorted.last().copied()) else {
         return Err("its column is empty".into());
-    }
-    let (mut best, mut otsu, mut sum) = (0.0, 0, 0.0);
-    for k in 1..n {
-        sum += sorted[k - 1];
-        let (below, above) = (k as f64, (n - k) as f64);
-        let apart = below * above * (sum / below - (all - sum) / above).powi(2);
-        if sorted[k] > sorted[k - 1] && apart > best {
-            (best, otsu) = (apart, k);
+    };
+    for _ in 0..SPLITS {
+        let (below, above) = sorted.split_at(sorted.partition_point(|v| *v <= 0.5 * (low + high)));
+        if above.is_empty() {
+            return Err("its column never switches".into());
         }
+        [low, high] = [below, above].map(|part| part[part.len() / 2]);
     }
-    let middle = sorted.partition_point(|v| *v < 0.5 * (sorted[0] + sorted[n - 1]));
-    let noise = noise(values).max(f64::MIN_POSITIVE);
-    let mut contrast = 0.0;
-    for split in [otsu, middle].into_iter().filter(|k| (1..n).contains(k)) {
-        let levels = [&sorted[..split], &sorted[split..]].map(|part| median(part.to_vec()));
-        let found = (levels[1] - levels[0]) / noise;
-        if found >= CONTRAST {
-            return Ok(levels);
-        }
-        contrast = f64::max(contrast, found);
-    }
-    Err(match contrast {
-        0.0 => "its column never switches".into(),
-        _ => format!(
+    let contrast = (high - low) / noise(values).max(f64::MIN_POSITIVE);
+    if contrast < CONTRAST {
+        return Err(format!(
             "its column never switches: its levels are {contrast:.1} times the noise apart, and {CONTRAST} are required"
-        ),
-    })
+        ));
+    }
+    Ok([low, high])
 }
 
 /// When the state changes, by two thresholds: each time halfway.
