@@ -80,27 +80,17 @@ impl Curve {
     }
 }
 
-/// A quantity of a whole curve.
-#[derive(Clone, Copy, Debug)]
-pub enum Whole {
-    /// From the start of opening to the end of closing.
-    Length,
-    /// The exposure.
-    Area,
-}
+/// A quantity of a whole curve, and how it moves with each parameter.
+pub type Whole = fn(&Curve) -> (f64, [f64; PARAMETERS]);
 
-impl Whole {
-    /// It, and how it moves with each parameter.
-    pub fn of(self, curve: &Curve) -> (f64, [f64; PARAMETERS]) {
-        match self {
-            Self::Length => (curve.length(), Curve::LENGTH),
-            Self::Area => {
-                let Collected { amount, moves } = Exposure::new(curve).whole();
-                (amount, moves)
-            }
-        }
-    }
-}
+/// From the start of opening to the end of closing.
+pub const LENGTH: Whole = |curve| (curve.length(), Curve::LENGTH);
+
+/// The exposure.
+pub const AREA: Whole = |curve| {
+    let Collected { amount, moves } = Exposure::new(curve).whole();
+    (amount, moves)
+};
 
 /// A curve with its ramps' integrals worked out.
 #[derive(Clone, Copy, Debug)]

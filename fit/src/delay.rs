@@ -5,7 +5,7 @@ use crate::curve::Exposure;
 use crate::errors::Measured;
 use crate::shots::ALIKE;
 use crate::signal::Signal;
-use crate::solve::Cholesky;
+use crate::solve::{Cholesky, normal_equations};
 use crate::trace::{Edge, Edges, Frame, Refusal, Starts, Switch, Trace, Warning, edges, sampling_interval};
 use crate::unit::{Unit, decimals, short, trimmed};
 use crate::{Record, Shot};
@@ -209,18 +209,13 @@ fn later(fitted: &Signal, &Shot { pulses, frame, .. }: &Shot, like: &Frame) -> M
     samples.retain(|bin| bin.to < middle);
     let (mut shift, mut error) = (first, step);
     for _ in 0..10 {
-        let mut normal = vec![vec![0.0; 3]; 3];
-        let mut right = [0.0; 3];
-        for bin in &samples {
+        let rows = samples.iter().map(|bin| {
             let (from, to) = (bin.from - shift, bin.to - shift);
             let slope = (exposure.openness(to) - exposure.openness(from)) / (to - from);
-            let row = [-fitted.gain * slope, 1.0, exposure.mean(from, to)];
-            let missed = bin.mean - fitted.dark - fitted.gain * row[2];
-            for (i, x) in row.iter().enumerate() {
-                right[i] += x * missed;
-                normal[i].iter_mut().zip(row).for_each(|(sum, y)| *sum += x * y);
-            }
-        }
+            let openness = exposure.mean(from, to);
+            (1.0, [-fitted.gain * slope, 1.0, openness], bin.mean - fitted.dark - fitted.gain * openness)
+        });
+        let (normal, right) = normal_equations(rows);
         let Some(factor) = Cholesky::new(normal) else { break };
         let by = factor.solve(&right)[0];
         shift += by;

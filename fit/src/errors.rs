@@ -1,7 +1,7 @@
 //! What the noise makes of the results: standard errors from the normal equations, and beside them what a ramp's foot,
 //! a low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
 
-use crate::curve::{CLOSING, CONTROLS, Curve, OPENING, PARAMETERS, PLATEAU, START, Whole, fractions};
+use crate::curve::{AREA, CLOSING, CONTROLS, Curve, LENGTH, OPENING, PARAMETERS, PLATEAU, START, Whole, fractions};
 use crate::frame::FrameFits;
 use crate::hum;
 use crate::missed::least_open;
@@ -154,12 +154,12 @@ fn of_kind(fits: &FrameFits, kind: Kind, n: u32) -> Results {
     let feet = if is_straight { [0.0; 2] } else { integral.feet(FOOT) };
     let unseen = feet.map(|time| FOOT * time);
     let searched = |whole: Whole, is_linear: bool| {
-        let linear = covariance.error(&whole.of(&curve).1);
+        let linear = covariance.error(&whole(&curve).1);
         if is_linear { linear } else { searched(fits, kind, whole, linear, covariance.variance) }
     };
     // By the noise.
-    let length = searched(Whole::Length, is_straight);
-    let light = unseen.into_iter().fold(searched(Whole::Area, !is_peak), f64::hypot);
+    let length = searched(LENGTH, is_straight);
+    let light = unseen.into_iter().fold(searched(AREA, !is_peak), f64::hypot);
     let exposure = Measured { value: area, error: light };
 
     let value = area / all;
@@ -212,7 +212,7 @@ fn of_kind(fits: &FrameFits, kind: Kind, n: u32) -> Results {
 fn searched(fits: &FrameFits, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
     const SIDE: f64 = 1.96;
     let signal = fits.of(kind).solution.signal;
-    let value = whole.of(&signal.curve).0;
+    let value = whole(&signal.curve).0;
     let (least, most) = (1e-4 * value, 0.5 * value);
     let side = |way: f64| {
         // Where the linear error is unknown, not a number, `min` takes the other.

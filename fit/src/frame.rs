@@ -148,7 +148,7 @@ impl FrameFits {
     /// best signal with that.
     pub fn cost_of(&self, kind: Kind, whole: Whole, more: f64, near: &mut Signal) -> f64 {
         let solution = &self.of(kind).solution;
-        let target = whole.of(&solution.signal.curve).0 + more;
+        let target = whole(&solution.signal.curve).0 + more;
         // Stiff enough to be kept to a hundredth, without any noise too.
         let least = self.samples.len() as f64 * noise::LEAST * noise::LEAST;
         let weight = 1e4 * solution.cost.max(least) / (more * more);

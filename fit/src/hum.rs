@@ -2,6 +2,7 @@
 
 use crate::bins::Bin;
 use crate::signal::{Bounds, Hum, Signal};
+use crate::solve::{Cholesky, normal_equations};
 
 /// From so many periods in a record on, it tells any frequency.
 pub const FEWEST: f64 = 3.0;
@@ -94,28 +95,14 @@ pub fn is_one(bins: &[Bin], signal: &Signal) -> bool {
 
 /// The best sine of a frequency beside a level, and by how much it lowers the sum of squares.
 fn sine(missed: &[(f64, f64, f64)], frequency: f64, range: Bounds) -> (f64, Hum) {
-    let waves = missed.iter().map(|(t, ..)| (std::f64::consts::TAU * frequency * t).sin_cos());
-    let waves: Vec<(f64, f64)> = waves.collect();
-    let [mut n, mut level, mut mc, mut ms] = [0.0; 4];
-    for ((_, miss, weight), (sine, cosine)) in missed.iter().zip(&waves) {
-        n += weight;
-        level += weight * miss;
-        mc += weight * cosine;
-        ms += weight * sine;
-    }
-    let [level, mc, ms] = [level, mc, ms].map(|sum| sum / n);
-    let [mut cc, mut cs, mut ss, mut c, mut s] = [0.0; 5];
-    for ((_, miss, weight), (sine, cosine)) in missed.iter().zip(&waves) {
-        let (sine, cosine, miss) = (sine - ms, cosine - mc, miss - level);
-        cc += weight * cosine * cosine;
-        cs += weight * cosine * sine;
-        ss += weight * sine * sine;
-        c += weight * cosine * miss;
-        s += weight * sine * miss;
-    }
-    let determinant = cc * ss - cs * cs;
-    let (cosine, sine) = ((c * ss - s * cs) / determinant, (s * cc - c * cs) / determinant);
-    let gain = cosine * c + sine * s;
-    let gain = if gain.is_finite() { gain } else { 0.0 };
-    (gain, Hum { frequency, range, cosine, sine })
+    let rows = missed.iter().map(|(t, miss, weight)| {
+        let (sine, cosine) = (std::f64::consts::TAU * frequency * t).sin_cos();
+        (*weight, [1.0, cosine, sine], *miss)
+    });
+    let (normal, right) = normal_equations(rows);
+    let by_level = right[0] * right[0] / normal[0][0];
+    let best = Cholesky::new(normal).map_or(vec![0.0; 3], |factor| factor.solve(&right));
+    let gain = best.iter().zip(right).map(|(x, b)| x * b).sum::<f64>() - by_level;
+    // Not a number counts as 0.
+    (gain.max(0.0), Hum { frequency, range, cosine: best[1], sine: best[2] })
 }

@@ -195,11 +195,7 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
         middle: fits.units.seconds(0.0),
     };
     // What is doubtful of other records, once.
-    for doubt in records.iter().flat_map(|other| &other.pulses.warnings) {
-        if fit.warnings.iter().all(|told| told.code() != doubt.code()) {
-            fit.warnings.push(doubt.clone());
-        }
-    }
+    Warning::add(&mut fit.warnings, records.iter().flat_map(|other| other.pulses.warnings.clone()));
     fit.warnings.extend(gap);
     let signal = fit.best().signal;
     if let Some((delay, doubts)) = delay::measure(records, &shots, asked, &signal, results.start, &fit.triggers)? {

@@ -91,7 +91,7 @@ impl Problem {
             solution.add(self.prior, packed[k] - straight, &moves, k);
         }
         if let Some(Held { whole, target, weight }) = self.held {
-            let (value, each) = whole.of(&signal.curve);
+            let (value, each) = whole(&signal.curve);
             moves.fill(0.0);
             signal.kind.gather(&each, &mut moves);
             solution.add(weight, value - target, &moves, 0);
@@ -176,6 +176,18 @@ fn learn(bend: &mut [Vec<f64>], here: &Solution, next: &Solution) {
             row.iter_mut().zip(&rest).for_each(|(cell, b)| *cell += a * b / along);
         }
     }
+}
+
+/// The normal equations of rows: a weight, what the row's numbers are multiplied by, and what that is to be.
+pub fn normal_equations<const N: usize>(rows: impl Iterator<Item = (f64, [f64; N], f64)>) -> (Vec<Vec<f64>>, [f64; N]) {
+    let (mut normal, mut right) = (vec![vec![0.0; N]; N], [0.0; N]);
+    for (weight, row, value) in rows {
+        for (i, x) in row.iter().enumerate() {
+            right[i] += weight * x * value;
+            normal[i].iter_mut().zip(row).for_each(|(sum, y)| *sum += weight * x * y);
+        }
+    }
+    (normal, right)
 }
 
 /// `A = L Lᵀ` of a symmetric, positive matrix, which is read up to its diagonal.
