@@ -56,12 +56,8 @@ impl Heads {
         found.ok_or_else(|| Refusal::NoColumn { name: column.into(), there: there() })
     }
 
-    /// The columns that are asked for, and the sync's, which is none of these and holds no times.
-    pub fn asked(
-        &self,
-        options: &Options,
-        holds_times: impl Fn(usize) -> bool,
-    ) -> Result<(Vec<usize>, Option<usize>), Refusal> {
+    /// The columns that are asked for, and the sync's, which is none of these.
+    pub fn asked(&self, options: &Options) -> Result<(Vec<usize>, Option<usize>), Refusal> {
         let asked = options.columns.iter().map(|column| self.column(column)).collect::<Result<Vec<_>, _>>()?;
         let Some(column) = &options.sync else { return Ok((asked, None)) };
         let named = self.names[0].iter().position(|name| name == column);
@@ -73,7 +69,6 @@ impl Heads {
                 self.quoted(k),
                 self.quoted(named)
             ),
-            (Ok(k), _) if holds_times(k) => format!("column {} holds times", self.quoted(k)),
             (Ok(k), _) if asked.contains(&k) => format!("column {} is the signal's", self.quoted(k)),
             (Ok(k), _) => return Ok((asked, Some(k))),
         };

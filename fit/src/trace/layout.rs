@@ -43,8 +43,14 @@ impl Layout {
     pub fn new(table: &Table, options: &Options) -> Result<Self, Refusal> {
         let settings = &table.settings();
         let columns = Columns { table, settings, unit: options.unit };
-        let (asked, sync) = table.heads.asked(options, |k| columns.runs(k))?;
-        if let (Some(number), true) = (table.decimal(), asked.is_empty() && sync.is_none() && !columns.runs(0)) {
+        let (asked, sync) = table.heads.asked(options)?;
+        if let Some(k) = sync.filter(|k| columns.runs(*k)) {
+            return Err(Refusal::NoDelay { reason: format!("column {} holds times", table.heads.quoted(k)) });
+        }
+        // Lines of two whole numbers may be decimals, of one column without a name.
+        let is_pair = table.columns.len() == 2 && table.heads.width == 2 && table.heads.names[0].is_empty();
+        if let (Some(number), true) = (table.cut(0), is_pair && asked.is_empty() && sync.is_none() && !columns.runs(0))
+        {
             return Err(Refusal::Thousands { number });
         }
         let (time, signals) = match (options.rate, asked.as_slice()) {
@@ -209,7 +215,7 @@ impl Columns<'_> {
         };
         let in_unit = |unit: Unit, told: Told| Ok((time, Clock::Unit(unit), told));
         if table.clocks.contains(&k) {
-            return match table.cut_second(k) {
+            return match table.cut(k) {
                 Some(number) => Err(Refusal::Thousands { number }),
                 None => in_unit(Unit::Second, Told::Format),
             };

@@ -269,19 +269,13 @@ impl<'a> Table<'a> {
         Some(self.field(row, k))
     }
 
-    /// A row that may be a value alone with a decimal comma, if all may be that.
-    pub fn decimal(&self) -> Option<String> {
-        let alone = Form { delimiter: ';', comma: true };
-        let texts = || self.rows.iter().map(|row| row.text).take(JUDGED);
-        let is_one = self.form.delimiter == ',' && self.columns == [0, 1] && self.heads.names[0].is_empty();
-        texts().next().filter(|_| is_one && alone.fits(texts()) == 1.0).map(short_of)
-    }
-
-    /// A time of day in whole seconds, and behind its comma what may be their fraction.
-    pub fn cut_second(&self, column: usize) -> Option<String> {
-        let next = |row| self.field(row, column + 1);
-        let may_be = |row| next(row).starts_with(|c: char| c.is_ascii_digit()) && !next(row).contains('.');
-        let is_whole = self.form.delimiter == ',' && self.first(column).iter().all(|time| time.fract() == 0.0);
+    /// A whole number, and behind its comma what may be its fraction.
+    pub fn cut(&self, column: usize) -> Option<String> {
+        let may_be = |row: &Line<'a>| {
+            let next = self.field(row, column + 1);
+            next.starts_with(|c: char| c.is_ascii_digit()) && !next.contains('.') && !row.text.contains(", ")
+        };
+        let is_whole = self.form.delimiter == ',' && self.first(column).iter().all(|x| x.fract() == 0.0);
         let first = self.rows.first().filter(|_| is_whole && self.rows.iter().take(JUDGED).all(may_be));
         first.map(|row| short_of(row.text))
     }

@@ -79,7 +79,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
     let rate = options.rate.unwrap_or(rate);
     let heads = Heads { width: channels, ..Heads::default() };
-    let (mut signals, sync) = heads.asked(options, |_| false)?;
+    let (mut signals, sync) = heads.asked(options)?;
     if signals.is_empty() {
         signals.extend((0..channels).filter(|k| Some(*k) != sync));
     }
