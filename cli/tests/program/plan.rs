@@ -139,7 +139,16 @@ fn what_lies_in_the_box_lies_in_it_in_every_unit() {
 fn a_delay_is_drawn_or_told() {
     for (delay, told) in [("0.125", ["\nsync\n", "delay 0.125 s"]), ("100", ["sync 100 s before"; 2])] {
         let plan = planned(TRAPEZOID, &format!("min_gap = 0; delay = {delay}"));
-        has(&shutter::picture::svg("late", &plan).unwrap(), &told, &[]);
+        let svg = shutter::picture::svg("late", &plan).unwrap();
+        has(&svg, &told, &[]);
+        // The edge stands before the curve.
+        let left = |stroke: &str| -> Option<i32> {
+            let (_, points) = svg.split_once(stroke)?.1.split_once("points=\"")?;
+            points.split(',').next()?.parse().ok()
+        };
+        let edge = left("stroke=\"#2D333B\" stroke-width=\"16\"");
+        assert_eq!(edge.is_some(), delay == "0.125");
+        assert!(edge < left("stroke=\"#0072B2\" stroke-width=\"20\""), "{edge:?}");
     }
 }
 

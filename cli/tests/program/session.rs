@@ -23,6 +23,8 @@ fn the_session_is_as_it_was() {
     folder.write("sensors.csv", format!("time_s,A,B\n{sensors}"));
     // Rows that are counted, and those whose first one is told to be at -1.5 ms.
     folder.write("rated.csv", format!("Sample rate: 100 kHz\nA\n{}", rows(&trace, |_, v| format!("{v}"))));
+    let counted = rows(&trace, |t, v| format!("{:.0},{v}", 1e5 * t));
+    folder.write("counted.csv", format!("Sample rate: 100 kHz\nn,v\n{counted}"));
     folder.write("zero.csv", folder.text("rated.csv").replace("A\n", "HOffset,-1.5e-3\nA\n"));
     folder.write("measured.toml", MEASURED);
     folder.write("bare.toml", with(TRAPEZOID, ""));
