@@ -155,7 +155,11 @@ fn a_bounce_is_told_with_its_end() {
         (Record { reopens: true, ..plain() }, "some 12 ms after the first"),
     ] {
         folder.write("three.csv", record.csv());
-        folder.run("fit three.csv --sync CH2").tells(&["at 3 of 3 shots", last]);
+        folder.run("fit three.csv --sync CH2 --out b.toml").tells(&["at 3 of 3 shots", last]);
+        // And so do the scene, and with it the module.
+        let settles = folder.text("b.toml").lines().find_map(|line| line.strip_prefix("sync_settles = ")?.parse().ok());
+        let ends: f64 = if last.contains("500 µs") { 0.5 } else { 12.0 };
+        assert!((1.05..1.2).contains(&(settles.unwrap_or(0.0) / ends)), "{settles:?}");
     }
 }
 
