@@ -221,7 +221,7 @@ const fn gap_before(name: &str, i: u32, gap: u32, min_gap: u32) -> Text {
 macro_rules! told {
     ($error:ident) => {
         impl $error {
-            /// Panics with the error's text: in a constant at compile time. [`expect!`](crate::expect) calls it.
+            /// Panics with the error's text. In a constant, that stops the build. [`expect!`](crate::expect) calls it.
             #[track_caller]
             pub const fn panic(self) -> ! {
                 panic!("{}", self.text().as_str())
@@ -241,8 +241,8 @@ macro_rules! told {
 told!(CurveError);
 told!(ScheduleError);
 
-/// Unwraps a result whose error is a [`CurveError`] or a [`ScheduleError`]. In a `const` or a `static`, an error is a
-/// compile error with its text.
+/// Unwraps a result whose error is a [`CurveError`] or a [`ScheduleError`]. In a `const` or a `static`, `Err` stops the
+/// build with the error's text.
 ///
 /// ```compile_fail,E0080
 /// # use shutter_curve::{Hz, ShutterCurve, TimedCurve, expect};

@@ -19,16 +19,17 @@
 //!
 //! # Terms
 //!
-//! - *Openness* is the part of the light that a shutter lets through at a moment, from 0 to 1.
+//! - *Openness* is the fraction of the light that a shutter lets through at a moment, from 0 to 1.
 //! - A *curve* is openness over time: an opening *ramp*, a fully open *plateau* and a closing ramp. Each ramp is a
 //!   cubic Bezier.
 //! - The *interval* is the time from `open_start` to `close_end`.
 //! - The *exposure* is the area under the curve. `u` is a fraction of it, from 0 to 1.
 //! - A *trigger* is the time at which a flash fires. A *pulse* is the time for which a steady lamp is on.
-//! - A *frame* is all triggers, or all pulses, of one exposure.
+//! - A *frame* is all triggers, or all pulses, for one opening of the shutter.
 //! - A *tick* is one count of your timer.
 //! - An *ulp* is the distance from an `f32` to the next.
-//! - *Typical curves* are boxes, trapezoids, leaf and rotary shutters, and random curves with gentle ramps.
+//! - *Typical curves* are boxes, trapezoids, leaf and rotary shutters, and random curves with gentle ramps, which
+//!   [`accuracy`] defines.
 //! - A *search* finds a time by iteration. Each curve stores polynomials that give most times without a search.
 //!
 //! # Units
@@ -53,7 +54,7 @@
 //! | - the ticks of a frame one by one, as in an interrupt handler | [`TimedCurve::trigger_ticks`] |
 //! | - how many triggers keep a minimum gap | [`TimedCurve::max_triggers`] |
 //! | - pulses that send equal light through the shutter | [`TimedCurve::pulses`], [`TimedCurve::pulse_ticks`] |
-//! | how many triggers surely need no search | [`ShutterCurve::direct_triggers`] |
+//! | how many triggers are guaranteed to need no search | [`ShutterCurve::direct_triggers`] |
 //!
 //! # From a measured shutter
 //!
@@ -84,9 +85,10 @@
 //! # Cost
 //!
 //! A `static` curve takes 1136 bytes of flash and no start-up code. The code for ticks takes about 4.5 kB, and 0.3 kB
-//! of stack. On a Cortex-M4F, the time of a fraction takes 60 to 110 cycles on average. A search takes 500 to 2500, or
-//! more on a density that is dim at both ends. Building a curve at run time takes 2.8 million. These are cycles of a
-//! model; no chip has been measured. A frame of up to [`ShutterCurve::direct_triggers`] triggers needs no search.
+//! of stack. On a Cortex-M4F, `inverse_cdf` takes 60 to 110 cycles on average. A search takes 500 to 2500 cycles, or
+//! more on a density with little light at both ends. Building a curve at run time takes 2.8 million cycles. All cycles
+//! are counted by a model; no chip has been measured. A frame of up to [`ShutterCurve::direct_triggers`] triggers needs
+//! no search.
 //!
 //! # Features and minimum Rust
 //!

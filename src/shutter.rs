@@ -25,17 +25,17 @@ use crate::trigger::timed::TimedCurve;
 /// 3. Where two parts of non-zero length meet, the openness is 1.
 /// 4. The interval from `open_start` to `close_end` is 2⁻⁶⁴ to 2⁶⁴ long. It is at least 2⁻¹⁶ of the larger of
 ///    `|open_start|` and `|close_end|`.
-/// 5. Each part has zero length, or at least 2⁻²⁴ of that larger number.
+/// 5. Each part has zero length, or at least 2⁻²⁴ of the larger of `|open_start|` and `|close_end|`.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
 /// Lengths are compared in `f64`, so one that is too small by 2⁻⁵³ of itself may pass.
 ///
 /// # Octaves
 ///
-/// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles; where it begins depends on the ramp.
+/// An *octave* is a range of fractions up to 1/2 whose end is twice its start; where it starts depends on the ramp.
 /// Above 1/2 the same holds for `1 - u`. The curve has room for the polynomials of the widest octaves that lie on
-/// ramps: `OCTAVES` below 1/2, and as many above. An octave that is too difficult has none. Polynomials answer most
-/// fractions on ramps, and a search answers the rest.
+/// ramps: `OCTAVES` below 1/2, and as many above. An octave has none if no candidate has a proven error bound.
+/// Polynomials answer most fractions on ramps, and a search answers the rest.
 ///
 /// With the default of 8, about one fraction in 400 of a typical curve needs a search. With 0, every fraction on a ramp
 /// does. The promised accuracy is always the same. A curve takes 368 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
@@ -82,8 +82,8 @@ impl ShutterCurve {
     ///
     /// The `times` are when the shutter starts to open, is fully open, starts to close, and is closed. The `inner`
     /// control points are `[t1, y1, t2, y2]` of the opening ramp and `[t5, y5, t6, y6]` of the closing one. Each `t` is
-    /// a fraction of the *whole* interval, 0 at the first of the `times` and 1 at the last. Each `y` is an openness. A
-    /// `t` that rounding put outside its ramp, by up to 2⁻²¹ of the greatest |time|, counts as the ramp's end.
+    /// a fraction of the *whole* interval, 0 at the first of the `times` and 1 at the last. Each `y` is an openness.
+    /// A time that rounding put outside its ramp, by up to 2⁻²¹ of the greatest |time|, counts as the ramp's end.
     ///
     /// ```
     /// use shutter_curve::{CurveError, Part, ShutterCurve};
@@ -91,7 +91,7 @@ impl ShutterCurve {
     /// let times = [0.0, 2.5, 7.5, 10.0];
     /// let curve = ShutterCurve::shutteropening(times, [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0])?;
     /// assert_eq!(curve.close_end(), 10.0);
-    /// // Fractions of each ramp, as in an easing curve, mostly fall outside it and are refused.
+    /// // Written as fractions of its own ramp, as in an easing curve, a `t` mostly lies outside the ramp.
     /// let error = ShutterCurve::shutteropening(times, [0.4, 0.0, 0.6, 1.0, 0.4, 1.0, 0.6, 0.0]);
     /// assert_eq!(error, Err(CurveError::FractionOutsideRamp { part: Part::Opening, point: 1 }));
     /// # Ok::<(), CurveError>(())
@@ -122,7 +122,7 @@ impl ShutterCurve {
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
-    /// // f = 80 t for t from 0 to 1. The density is 2 t, so that cdf = t².
+    /// // f = 80 t for t from 0 to 1. The density is 2 t, so cdf = t².
     /// let line = CubicBezier::line((0.0, 0.0), (1.0, 80.0));
     /// let curve = ShutterCurve::density(line.scaled(1.0 / 128.0))?;
     /// assert_eq!(curve.pdf(0.5), 1.0);
@@ -233,7 +233,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
-    /// // In ms: half of each ramp, and no plateau.
+    /// // In ms. Each ramp collects half of its length; there is no plateau.
     /// let curve = ShutterCurve::linear(0.0, 4.0, 4.0, 8.0)?;
     /// assert_eq!([curve.exposure(), curve.normalization(), curve.efficiency()], [4.0, 0.25, 0.5]);
     /// # Ok::<(), shutter_curve::CurveError>(())
@@ -256,12 +256,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (1.0 / (self.inverse.curve.per_area * (self.close_end() as f64 - self.open_start() as f64))) as f32
     }
 
-    /// A number of triggers up to which no frame needs a search. Computing each trigger then takes a short, bounded
-    /// time. A larger frame may need none either. Pulses may need searches even in smaller frames.
+    /// No frame of up to this many triggers needs a search. Computing each trigger then takes a short, bounded time. A
+    /// larger frame may need none either. Pulses may need searches even in smaller frames.
     ///
     /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
-    /// double it, up to 2 796 202. It is 0 on curves that are too difficult for polynomials, or, with `OCTAVES = 0`, if
-    /// the middle of the exposure lies on a ramp. A frame of any size may then need searches.
+    /// double it, up to 2 796 202. It is 0 if the middle of the exposure lies on a ramp
+    /// without a polynomial there, as with `OCTAVES = 0`. A frame of any size may then need searches.
     ///
     /// A constant can check the number at compile time:
     ///

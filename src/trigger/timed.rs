@@ -86,8 +86,8 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
 
     /// The ticks of a frame of `n` triggers, as an iterator.
     ///
-    /// Often the exposure alone shows that `n` triggers keep the gap, and the call is fast. Otherwise the call computes
-    /// the whole frame to check it, as [`ticks_into`](Self::ticks_into) does.
+    /// Often the exposure alone shows that `n` triggers keep the gap. Otherwise the call computes the whole frame to
+    /// check it, as [`ticks_into`](Self::ticks_into) does.
     ///
     /// # Errors
     /// Returns a [`ScheduleError`] if `n` is above 2²², or if a gap is too small.
@@ -139,10 +139,10 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// A number of triggers, up to `wanted`, that keep the gap. If it is below both `wanted` and 2²², one more would
     /// not keep the gap. It is 0 only if `wanted` is 0.
     ///
-    /// On a coarse timer, a smaller number may fail, and a number above the next may pass.
+    /// If ticks are coarse, a smaller number may break the gap, and a number larger by two or more may keep it.
     ///
-    /// Often the exposure alone shows that `wanted` triggers keep the gap, and the call is fast. Otherwise the call
-    /// computes frames until it finds the number, at most 23.
+    /// Often the exposure alone shows that `wanted` triggers keep the gap. Otherwise the call computes at most 23
+    /// frames to find the number.
     #[must_use]
     pub const fn max_triggers(&self, wanted: u32) -> u32 {
         let wanted = if wanted < MOST_TRIGGERS { wanted } else { MOST_TRIGGERS };
@@ -160,11 +160,11 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
         keep
     }
 
-    /// A frame of `n` pulses, as an iterator. With a duty of 1 pulses touch, which needs a
+    /// A frame of `n` pulses, as an iterator. With a duty of 1, they touch; this needs a
     /// [`min_gap`](Self::min_gap) of 0.
     ///
-    /// Often the exposure alone shows that `n` pulses are long and far enough apart, and the call is fast. Otherwise
-    /// the call computes the whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
+    /// Often the exposure alone shows that `n` pulses are long and far enough apart. Otherwise the call computes the
+    /// whole frame to check it, as [`pulses_into`](Self::pulses_into) does.
     ///
     /// # Errors
     /// Returns a [`ScheduleError`] if the duty is NaN, 0 or less, or above 1, if `n` is above 2²², or if a pulse or a
@@ -196,7 +196,7 @@ impl<'a, const OCTAVES: usize> TimedCurve<'a, OCTAVES> {
     /// static SHUTTER: ShutterCurve = expect!(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
     /// const LAMP: TimedCurve = expect!(SHUTTER.at(Hz(1_000_000))).min_gap(1_000).min_pulse(1_000);
     /// const PULSES: [Pulse; 3] = expect!(LAMP.pulses(0.5));
-    /// // Where the shutter is half closed, a pulse lasts longer.
+    /// // Where the shutter is partly closed, a pulse lasts longer.
     /// assert_eq!(PULSES[..2], [Pulse { on: 1414, off: 2500 }, Pulse { on: 3500, off: 4500 }]);
     /// ```
     ///

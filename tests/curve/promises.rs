@@ -45,7 +45,8 @@ fn the_pages_have_these_numbers() {
         let (_, told) = page.split_once(&format!("\n| {row}")).unwrap_or_else(|| panic!("no {row}"));
         assert!(told.split(" | ").nth(1).is_some_and(|it| format!("{it} ").starts_with(&promise)), "{row}: {promise}");
     }
-    let of_readme = [format!("within {BACKWARD:?} ulp of yours"), format!("within {TYPICAL_TICK} tick of its exact")];
+    let of_readme =
+        [format!("within {BACKWARD:?} ulp of `u`"), format!("within {TYPICAL_TICK} tick of its trigger's exact")];
     assert!(of_readme.iter().all(|told| readme.contains(told)));
     let floors = [BACKWARD * BACKWARD_FLOOR, CDF_FLOOR, DENSITY_FLOOR].map(f64::log2);
     assert_eq!(floors, [-46.0, -24.0, -57.0]);
