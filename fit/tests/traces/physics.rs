@@ -273,8 +273,8 @@ fn table_of_capacitors() {
     }
 }
 
-/// A sound card's capacitor costs nothing, and two of them are right or refused. Behind one of 50 Hz, a few samples beside
-/// the pulse decide whether each of these records has a result.
+/// A sound card's capacitor costs nothing, and two of them are right or refused. Behind one of 50 Hz, a few samples
+/// beside the pulse decide whether each of these records has a result.
 #[test]
 fn capacitors_are_fitted_or_refused() {
     let both = &[0.002, 0.008][..];
