@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import log2
 from pathlib import Path
 
-SRC = Path(__file__).resolve().parent.parent / "src"
+SRC, PROMISE = (Path(__file__).resolve().parent.parent / path for path in ("src", "tests/support/promise.rs"))
 SCRIPT = Path(sys.argv[0]).stem
 
 # Half the distance between the f32 around 1, and the greatest relative error of one rounding; the same of f64.
@@ -23,22 +23,22 @@ STEEPEST = 9
 WAY_OFF, BOUND_OFF = 72, Fraction(1, 2**16)
 
 CONSTANTS = {}
-for path in sorted(SRC.rglob("*.rs")):
+for path in [*sorted(SRC.rglob("*.rs")), PROMISE]:
     for name, value in re.findall(r"const (\w+): [^=]+? =\s*([^;]*);", path.read_text()):
         CONSTANTS.setdefault(name, []).append((path.stem, value))
 
 
 def text_of(name):
-    """The text of a constant of src/; `file::name` where several files have one."""
+    """The text of a constant of src/ or of the promises; `file::name` where several files have one."""
     file, _, name = name.rpartition("::")
     values = [value for stem, value in CONSTANTS.get(name, []) if file in ("", stem)]
     if len(values) != 1:
-        sys.exit(f"src/ has {len(values)} constants {name}, not 1")
+        sys.exit(f"there are {len(values)} constants {name}, not 1")
     return values[0]
 
 
 def constant(name):
-    """The value of a constant of src/."""
+    """The value of such a constant."""
     text = re.sub(r" as \w+|\.to_bits\(\)|(?<=\d)_(?=\d)|(?<=\d)[iu]\d\d\b", "", text_of(name))
     text = re.sub(r"\d+\.\d*", lambda n: f"Fraction('{n[0].rstrip('.')}')", text)
     text = re.sub(r"power_of_two(_f64)?\(", "power(", text)

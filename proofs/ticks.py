@@ -8,7 +8,7 @@ from z3 import *
 from common import *
 
 # --- Fractions. R rounds to an f32, D divides by 2n and rounds. Both keep order, R keeps n, and D makes 1/2 of that.
-MOST_TRIGGERS = constant("MOST_TRIGGERS")
+MOST_TRIGGERS = constant("ticks::MOST_TRIGGERS")
 require(2 * MOST_TRIGGERS <= 2**24, "2i + 1, 2n and their difference are exact")
 n, half = Real("n"), Q(1, 2)
 exact, part, rest, a, b = ([Real(f"{name}{i}") for i in (0, 1)] for name in ("exact", "part", "rest", "a", "b"))

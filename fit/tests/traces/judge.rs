@@ -99,10 +99,11 @@ impl Row {
     /// Does a warning tell that the results may be so wrong? None of noise or drift does, and one of sharp edges no
     /// more than what it says: half a sample at an edge, a sample of the exposure.
     fn is_told_by(&self, warning: &Warning) -> bool {
-        const BESIDE: [&str; 7] = ["noise", "drift", "inverted", "hum", "spikes", "glitches", "partial_frame"];
+        const TELL: &str = "shots_differ pulsed ac_coupled clipped cut_tail slow_tail flicker short_hum no_plateau \
+                            wide_error gap unseen drift_or_capacitor misfit untested sound_card";
         match warning {
             Warning::SharpEdges { share, .. } => self.triggers <= 0.5 * share && self.exposure <= *share,
-            other => !BESIDE.contains(&other.code()),
+            other => TELL.split_whitespace().any(|code| code == other.code()),
         }
     }
 
