@@ -4,12 +4,13 @@
 //! Its stages, in the order in which they happen:
 //!
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
-//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, and
-//!   the `noise` that is left; `columns`: with a drift, a `hum` or a flicker where the samples show it;
-//! - `choice`: the kinds compared, and one chosen; with a flicker, where that explains more;
-//! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them, as a [`trace::Warning`];
-//! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `running`: the results of the samples
-//!   themselves, where it does not;
+//! - `choice`: the frame fitted, the kinds compared, and one chosen. It asks `columns`, which adds a drift, a `hum` or a
+//!   flicker where the samples show it to what `frame` fits: every kind, in the frame's own `units`, as `bins`, by a
+//!   `search` from starts with `solve`, and the `noise` that is left;
+//! - `structure`, `patterns` (one by a `lag`): does a fit explain the samples? `columns` and `choice` ask that, too;
+//! - `errors`: the results with their standard errors; `running`: those of the samples themselves, where no curve
+//!   explains them; `delay`: from the sync to the opening;
+//! - `doubts`: what may be wrong with them, as a [`trace::Warning`];
 //! - `report`, `json`: the [`Fit`] as text, and for a program.
 //!
 //! What is fitted is a `signal`, made of a `curve` with two `ramp`s.

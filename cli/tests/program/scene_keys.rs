@@ -53,11 +53,18 @@ fn the_page_says_what_is_required() {
 fn a_time_is_in_the_unit_of_its_table() {
     let shutter = "open_start = 1@\nopen_end = 2@\nclose_start = 6@\nclose_end = 8@\ndelay = 4@\ndelay_spread = 0.1@\n\
                    sync_falls = true\nsync_settles = 50@\nnominal = 5@\n";
-    for flashes in
-        ["lamp_lag = 0.2%\nduty = 0.5\nmin_pulse = 0.01%\n", "pulse = 0.3%\ndelay = 3%\ndelay_spread = 0.2%\n"]
-    {
+    let flashes =
+        ["lamp_lag = 0.2%\nduty = 0.5\nmin_pulse = 0.01%\n", "pulse = 0.3%\ndelay = 3%\ndelay_spread = 0.2%\n"];
+    let common = "triggers = 4\ntimer_hz = 1e6\nmin_gap = 0.1%\n";
+    let others = "unit shutteropening trigger_times measured timer_bits set_up fully_open";
+    let known = format!("{shutter}{}{common}{others}", flashes.concat());
+    for table in [serde_json::to_value(Shutter::default()), serde_json::to_value(Flashes::default())] {
+        for key in table.unwrap().as_object().unwrap().keys() {
+            assert!(known.split_whitespace().any(|word| word == key), "{key}");
+        }
+    }
+    for flashes in flashes {
         let played = |[ours, theirs]: [(&str, &str); 2]| {
-            let common = "triggers = 4\ntimer_hz = 1e6\nmin_gap = 0.1%\n";
             let [own, other] = [("shutter", ours, shutter), ("flashes", theirs, flashes)]
                 .map(|(table, (unit, _), keys)| format!("[{table}]\nunit = '{unit}'\n{keys}"));
             let plan =

@@ -1,5 +1,10 @@
 //! A measured trace: [`open()`] takes a file to a [`Trace`], and [`pulses`] finds its pulses and its noise.
 //! Whatever is wrong with it on the way is a [`Refusal`] or a [`Warning`].
+//!
+//! A file's way, in `read`: its `bytes` to a text; lines and cells of a `table`, with `numbers`, and above them `heads`
+//! and `settings`, of `names` that instruments write; its `layout`, which columns are times and signals, in which unit;
+//! their `times`, put in order as `samples`; and of several signals one, which `select` takes. `reading` says what was
+//! read. A `wav` has no table.
 
 mod asked;
 mod bytes;
