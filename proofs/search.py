@@ -138,8 +138,8 @@ backward = lambda e: answer(e)[1] + crossed(e) + (GRID / 2 if e < -23 else 0)
 ulp = lambda e: Fraction(2) ** (62 + e - 23)
 above, below = max(backward(e) / ulp(e) for e in BINADES if e >= -23), max(backward(e) for e in BINADES if e < -23)
 proven(f"inverse_cdf by a search: backward error at most {float(above):.3f} ulp of a fraction from 2^-23 on, and 2^"
-       f"{log2(below / 2**62):.2f} of the exposure below: within what is promised, {float(constant('BACKWARD'))} ulp, or "
-       "2^-46", above < constant("BACKWARD") and GRID / 2 < below < GRID)
+       f"{log2(below / 2**62):.2f} of the exposure below: promised are {float(constant('BACKWARD'))} ulp, or 2^-46",
+       above < constant("BACKWARD") and GRID / 2 < below < GRID)
 # A polynomial's exposure is within ULP_ERROR, with the unit by which its own end is cut.
 own, by_search = constant("ULP_ERROR") * (1 + BOUND_OFF), max(answer(e)[1] / ulp(e) for e in BINADES if e >= -23)
 proven(f"with one unit in its certificate a polynomial beside another takes {float(2 * own)} ulp of exposure, beside a "

@@ -4,8 +4,8 @@
 //! Its stages, in the order in which they happen:
 //!
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
-//! - `choice`: the frame fitted, the kinds compared, and one chosen. It asks `columns`, which adds a drift, a `hum` or a
-//!   flicker where the samples show it to what `frame` fits: every kind, in the frame's own `units`, as `bins`, by a
+//! - `choice`: the frame fitted, the kinds compared, and one chosen. It asks `columns`, which adds a drift, a `hum` or
+//!   a flicker where the samples show it to what `frame` fits: every kind, in the frame's own `units`, as `bins`, by a
 //!   `search` from starts with `solve`, and the `noise` that is left;
 //! - `structure`, `patterns` (one by a `lag`): does a fit explain the samples? `columns` and `choice` ask that, too;
 //! - `errors`: the results with their standard errors; `running`: those of the samples themselves, where no curve
