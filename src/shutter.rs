@@ -260,8 +260,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// larger frame may need none either. Pulses may need searches even in smaller frames.
     ///
     /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
-    /// double it, up to 2 796 202. It is 0 if the middle of the exposure lies on a ramp
-    /// without a polynomial there, as with `OCTAVES = 0`. A frame of any size may then need searches.
+    /// double it, up to 2 796 202. It is 0 if the middle of the exposure lies on a ramp without a polynomial there, as
+    /// with `OCTAVES = 0`. A frame of any size may then need searches.
     ///
     /// A constant can check the number at compile time:
     ///
