@@ -150,15 +150,17 @@ pub(crate) fn measure(
     let curve = signal.curve;
     let is_alike = |shot: &Shot| (shot.frame.exposure / fitted.frame.exposure - 1.0).abs() <= ALIKE;
     let all: Vec<_> = shots.iter().zip(edges).filter(|(shot, _)| is_alike(shot)).collect();
+    // A model that does not explain the trace is off its own shot, and off all others alike.
+    let own = later(signal, fitted, fitted.frame).value;
     let (mut delays, mut variance, mut edges_variance) = (Vec::new(), 0.0, 0.0);
     for (shot, edge) in &all {
         let Some(Edge { time, error }) = edge else { continue };
         // The one shot of a given edge is the fitted one.
         let later = match is_given && records.len() == 1 {
-            true => Measured { value: 0.0, error: 0.0 },
+            true => Measured { value: own, error: 0.0 },
             false => later(signal, shot, fitted.frame),
         };
-        delays.push(start.value + later.value - time);
+        delays.push(start.value + (later.value - own) - time);
         edges_variance += error.powi(2);
         variance += error.powi(2) + later.error.powi(2);
     }

@@ -144,6 +144,25 @@ fn the_spread_is_what_was_put_in() {
     }
 }
 
+/// Where no model explains a shutter, its own triggers still count from the edge: no misfit is in the delay.
+#[test]
+fn a_shot_of_its_own_is_not_shifted_by_its_misfit() {
+    let folder = Folder::new("misfit");
+    let record = Record { hertz: 1e6, ..Record::new(1, 5) };
+    // Steep at first, and dimmed for a while in the middle.
+    let row = |[t, light, sync]: [f64; 3]| {
+        let x = 0.5 * (light - 0.1);
+        let open = if x < 0.1 { 6.0 * x } else { 0.6 + 0.4 * (x - 0.1) / 0.9 };
+        let part = if (0.0135..0.015).contains(&t) { 0.7 } else { 1.0 };
+        [t, 0.1 + 2.0 * part * open, sync]
+    };
+    folder.write("odd.csv", record.rewritten(row));
+    let json = folder.json("odd.csv --sync CH2");
+    assert_eq!(json["triggers_from"], "trace", "{json}");
+    let edge = number(&json, "opens_s") - number(&json, "delay_s");
+    assert!((edge - 0.008).abs() < 2e-6, "{edge}");
+}
+
 /// A contact bounces as it closes or as it opens, and the warning says for how long a firmware has to take no other
 /// edge.
 #[test]
