@@ -28,9 +28,10 @@ pub struct Layout {
     pub sync: Option<usize>,
 }
 
-/// Do the numbers count the rows?
+/// Do the numbers count the rows? Some may be lost, or a count begin anew.
 fn is_counter(numbers: &[f64]) -> bool {
-    numbers.len() > 2 && numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
+    let next = numbers.windows(2).filter(|pair| pair[1] - pair[0] == 1.0).count();
+    numbers.len() > 2 && 10 * next >= 9 * (numbers.len() - 1)
 }
 
 /// The usual step of some numbers, if there are two.
