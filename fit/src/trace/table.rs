@@ -232,7 +232,7 @@ impl<'a> Table<'a> {
 
     /// # Errors
     /// Words between the rows, where another recording may begin: those that are not above the rows as well, and all
-    /// where rows are counted.
+    /// where rows are counted. There an empty line is a word as well, if not all rows are so far apart.
     pub fn is_one(&self, are_counted: bool) -> Result<(), Refusal> {
         let has_number = |line: &Line, k: &usize| line.cell(*k).number().is_some();
         let is_above = |line: &Line| self.above.iter().any(|(above, _)| *above == line.text);
@@ -240,9 +240,16 @@ impl<'a> Table<'a> {
             true => !has_number(line, &self.columns[0]),
             false => !self.columns.iter().any(|k| has_number(line, k)) && !is_above(line),
         };
-        let is_text = |line: &&Line| line.is_remark() || line.text.starts_with(char::is_alphabetic);
-        match self.remarks.iter().chain(&self.rows).filter(is_text).find(begins) {
-            Some(line) => Err(Refusal::Blocks { line: line.number, text: short_of(line.text) }),
+        // A mark or a quote may stand before a word.
+        let words = |line: &Line<'a>| line.text.trim_start_matches(|c: char| !c.is_alphanumeric());
+        let is_text = |line: &&Line<'a>| line.is_remark() || words(line).starts_with(char::is_alphabetic);
+        if let Some(line) = self.remarks.iter().chain(&self.rows).filter(is_text).find(begins) {
+            return Err(Refusal::Blocks { line: line.number, text: short_of(line.text) });
+        }
+        let mut steps = self.rows.windows(2).map(|pair| (pair[0].number, pair[1].number - pair[0].number));
+        let usual = steps.clone().next().map(|(_, step)| step);
+        match steps.find(|(_, step)| are_counted && Some(*step) != usual) {
+            Some((row, _)) => Err(Refusal::Blocks { line: row + 1, text: String::new() }),
             None => Ok(()),
         }
     }

@@ -295,6 +295,18 @@ fn what_stands_between_the_rows_is_told() {
     judge((timed("Time (s),A") + &timed("Time (s),B")).as_bytes(), "", "!'Time (s),B' between").expect("a refusal");
     judge((timed("Time (s),A") + &timed("Time (s),A")).as_bytes(), "", "2 in 2 segments, each|broken_rows")
         .expect("segments");
+    // Other units, a mark or a quote before them, an empty line as between two frames.
+    let between = |above: &str, line: &str, row: &str| format!("{above}\n{}{line}\n{}", rows(row), rows(row));
+    for line in ["Time,A\n(ms),(V)", "\"Time (ms)\",\"A\"", "; Time (ms),A"] {
+        judge(between("Time,A\n(s),(V)", line, "{t},{v}").as_bytes(), "", "!between the rows").expect(line);
+    }
+    judge(between("Sample rate: 100 kHz", "", "{v}").as_bytes(), "", "!line 1202: '' between").expect("a refusal");
+    judge(rows("{v}\n").as_bytes(), "--rate 1e5", "1 as asked").expect("a trace");
+    // A count that soon begins anew.
+    let counted = rows("{i},{v}");
+    let (dark, _) = counted.split_once("150,").expect("a row");
+    judge(format!("Sample rate: 100 kHz\nn,A\n{dark}{counted}").as_bytes(), "", "2 by 'Sample rate~in 2 segments")
+        .expect("segments");
 }
 
 #[test]
