@@ -25,7 +25,6 @@ const HELD: &[(&str, &[&str])] = &[
         "is clamped to [0, 1]", "The time of 0 is", "It is 0 before", "The openness at the time", "counts as 0.0",
     ]),
     ("tests/curve/promises.rs::named_curves_and_cases", &["1 divided by the", "efficiency, at most 1"]),
-    ("tests/curve/promises.rs::faults", &["the error can be many ticks", "0.89 tick was seen"]),
     ("benches/host/speed_vs_error/every_f32.rs", &["checks order and errors at"]),
     ("docs/internals/speed-vs-error.md",
         &["in the repository has the largest", "*Error* is the largest", "with 256 entries, reaches"]),
@@ -71,7 +70,7 @@ const PLAIN: &[&str] = &[
     "--min-gap 100us", "and never change: emit them", "License: MIT", "what holds for every input",
     "What holds for every input", "A gentle ramp takes", "at every point in time within", "that spans time 0",
     "[docs/firmware.md]", "may need none either", "On longer curves",
-    "larger of `|open", "search steps that",
+    "larger of `|open", "search steps that", "32 ticks of 2³¹",
 ];
 
 /// The text outside of code, a paragraph, list item or table row a line.
