@@ -1,5 +1,6 @@
 //! What a command line sets in place of a scene.
 
+use clap::{Args, Command};
 use serde::Serialize;
 use shutter_fit::unit::short;
 use shutter_plan::lamp::SetUp;
@@ -10,7 +11,7 @@ use super::fit::trigger_count;
 use super::quantity::{time, whole_rate};
 
 /// The settings of a frame. They count in place of the scene's.
-#[derive(clap::Args, Default, Serialize)]
+#[derive(Args, Default, Serialize)]
 pub struct Settings {
     /// How many triggers
     #[arg(long, value_name = "N", value_parser = trigger_count())]
@@ -48,16 +49,16 @@ pub struct Settings {
     sync_falls: Option<bool>,
 }
 
-/// Those that are times, in seconds.
-const TIMES: [&str; 5] = ["min_gap", "pulse", "min_pulse", "lamp_lag", "delay"];
-
 impl Settings {
     /// Sets them in a scene, and tells which.
     pub fn set(&self, scene: &mut Scene) -> Vec<String> {
         const PLAIN: &str = "keys, numbers and words";
         let unit = scene.unit();
         let mut own = Table::try_from(self).expect(PLAIN);
-        for (_, time) in own.iter_mut().filter(|(key, _)| TIMES.contains(&key.as_str())) {
+        // Those that the help calls times are in seconds.
+        let options = Self::augment_args(Command::new(""));
+        let names = |key: &str| options.get_arguments().find(|it| it.get_id() == key)?.get_value_names();
+        for (_, time) in own.iter_mut().filter(|(key, _)| names(key.as_str()).is_some_and(|it| it[0] == "TIME")) {
             // To the digits that were given: 100 us are 0.1 ms, whatever the binary product is.
             let digits = time.as_float().map(|seconds| short(unit.of(seconds), 15).parse());
             *time = digits.and_then(Result::ok).map_or(time.clone(), Value::Float);
