@@ -28,10 +28,11 @@ pub struct Layout {
     pub sync: Option<usize>,
 }
 
-/// Do the numbers count the rows? Some may be lost, or a count begin anew.
-fn is_counter(numbers: &[f64]) -> bool {
-    let next = numbers.windows(2).filter(|pair| pair[1] - pair[0] == 1.0).count();
-    numbers.len() > 2 && 10 * next >= 9 * (numbers.len() - 1)
+/// The step by which numbers go on, 1 where they count the rows. Some may be lost, or a count begin anew.
+fn even_step(numbers: &[f64]) -> Option<f64> {
+    let usual = usual_step(numbers)?;
+    let next = numbers.windows(2).filter(|pair| ((pair[1] - pair[0]) / usual - 1.0).abs() < 1e-3).count();
+    (numbers.len() > 2 && 10 * next >= 9 * (numbers.len() - 1)).then_some(usual)
 }
 
 /// The usual step of some numbers, if there are two.
@@ -129,7 +130,7 @@ impl Columns<'_> {
     fn counts(&self, k: usize) -> bool {
         let said = self.said(k);
         !matches!(said, Some(Means::In(_)))
-            && (is_counter(&self.table.first(k)) || said == Some(Means::Count) && self.runs(k))
+            && (even_step(&self.table.first(k)) == Some(1.0) || said == Some(Means::Count) && self.runs(k))
     }
 
     /// Do the numbers go one way, as times do and a pulse does not? They may begin anew with each of some shots.
@@ -188,8 +189,10 @@ impl Columns<'_> {
             return Ok(named);
         }
         if let Some((_, step)) = self.settings.step()? {
-            let counter = find(&|k| is_counter(&self.table.first(k)));
-            return Ok(counter.or_else(|| find(&|k| self.unit_of_steps(k, step).is_some())));
+            let counter = find(&|k| even_step(&self.table.first(k)) == Some(1.0));
+            let fits = || find(&|k| self.unit_of_steps(k, step).is_some());
+            let other = || find(&|k| self.counts(k) || even_step(&self.table.first(k)).is_some());
+            return Ok(counter.or_else(fits).or_else(other));
         }
         // Of the first columns one alone can be the time, after those that count.
         let counts = |k: usize| self.counts(k) && self.unit.is_none();
@@ -238,9 +241,11 @@ impl Columns<'_> {
             (None, _, Some((words, unit))) if !counts => return in_unit(unit, Told::Header(words)),
             _ => (),
         }
-        // The numbers of a timer are no samples.
-        if let (Some((words, step)), true) = (step?, counts) {
-            return Ok((time.filter(|_| is_counter(&first)), Clock::Rate(1.0 / step), Told::Header(words)));
+        // By another step than 1 the rate may be the count's or the rows'.
+        if let (Some((words, step)), true) = (step?, counts || even_step(&first).is_some()) {
+            let other = Refusal::TwoRates { first: table.heads.quoted(k), second: words.clone() };
+            let clock = (time, Clock::Rate(1.0 / step), Told::Header(words));
+            return if even_step(&first) == Some(1.0) { Ok(clock) } else { Err(other) };
         }
         // Whole numbers with more than one between them are a timer's, and that hardly counts seconds.
         let is_timer =

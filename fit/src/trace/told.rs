@@ -83,7 +83,7 @@ messages! {
         "line {line}: '{text}' between the rows may begin another recording; put each into a file of its own, or leave \
          the line out";
     TwoRates { first: String, second: String } [Remedy::Rate]
-        "'{first}' and '{second}' above the numbers tell different rates; give the right one";
+        "'{first}' and '{second}' above the numbers tell different rates; give that of the rows";
     Thousands { number: String }
         "'{number}' has marks that may part thousands, or a whole number from its fraction; export plain numbers, \
          with the columns' names above them";

@@ -141,6 +141,8 @@ const EXPORTS: &[Export] = &[
     ("Time (s),Integration time (ms),Light\n", "{t},8,{v}", "", "3 column 1, \"Time (s)\" in s"),
     ("Mains frequency: 50 Hz\nSample rate: 100000 Hz\n", "{v}", "", "1 by 'Sample rate"),
     ("Sample rate: 100 kHz\nTime (ms),v\n", "{t},{v}", "", "!different rates"),
+    ("Sample rate: 1 MHz\nn,v\n", "{i}0,{v}", "", "!different rates; give that of the rows (--rate"),
+    ("Sample rate: 100 kHz\nSequence,v\n", "{i}0,{v}", "", "!different rates"),
     // Columns and rows.
     ("CH1,CH2\n", "{up},{v}", "", "!2: CH1, CH2"),
     ("", "{i};{t};{v}", "", "3 column 2 in s, assumed|unit_assumed"),
