@@ -40,6 +40,8 @@ pub struct Delay {
     trigger: f64,
     /// From the start of opening to the half-open shutter, which differs less between fits.
     half: f64,
+    /// To when a 32nd of the exposure is collected, which no misfit moves.
+    early: f64,
 }
 
 impl Delay {
@@ -92,7 +94,7 @@ pub fn pool<'a>(delays: impl Iterator<Item = (f64, &'a mut Delay)>) {
             (other / *exposure - 1.0).abs() <= ALIKE && it.switch.map(|it| it.falls()) == falls
         };
         let same = || all.iter().filter(is_same);
-        let shifted = |it: &Delay, shot: f64| shot + (it.half - own.half);
+        let shifted = |it: &Delay, shot: f64| shot + (it.early - own.early);
         let shots = same().flat_map(|(_, it)| it.shots.iter().map(move |shot| shifted(it, *shot)));
         own.shots = shots.collect();
         own.measuring = same().map(|(_, it)| it.measuring).fold(0.0, f64::max);
@@ -113,8 +115,8 @@ fn synced(sync: &Sync, frames: &[Frame]) -> Result<Edges, String> {
     Ok(Edges { switch: None, step: 0.0, starts })
 }
 
-/// The delay where the shot `asked` has this signal, starts to open at `start`, and has these triggers, and what is
-/// doubtful about it; none without a sync.
+/// The delay where the shot `asked` has this signal, starts to open and has collected a 32nd at these times, and has
+/// these triggers, and what is doubtful about it; none without a sync.
 ///
 /// # Errors
 /// An edge of a given time before another frame; a channel that does not tell the edges.
@@ -123,7 +125,7 @@ pub(crate) fn measure(
     shots: &[Shot],
     asked: usize,
     signal: &Signal,
-    start: Measured,
+    [start, early]: [Measured; 2],
     triggers: &[Measured],
 ) -> Result<Option<(Delay, Vec<Warning>)>, Refusal> {
     let refused = |reason: &str| Err(Refusal::NoDelay { reason: reason.into() });
@@ -194,6 +196,7 @@ pub(crate) fn measure(
         start: start.error,
         trigger: triggers.iter().map(|trigger| trigger.error).fold(0.0, f64::max),
         half: curve.start + Exposure::new(&curve).feet(0.5)[0] - start.value,
+        early: early.value - start.value,
     };
     Ok(Some((delay, doubts.collect())))
 }

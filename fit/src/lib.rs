@@ -152,11 +152,13 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
     let Structure { mut test, hidden, .. } = structure::structure(fits, chosen);
     test.at = fits.units.seconds(test.at);
     let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
-    let from_trace = match chosen {
+    let from_trace = |n| match chosen {
         _ if test.explained => None,
         Kind::Free => running::results(fits, Kind::Free, &model, n),
         _ => running::results(fits, Kind::Free, &errors::results(fits, Kind::Free, 1), n),
     };
+    let early = from_trace(16).unwrap_or_else(|| errors::results(fits, chosen, 16)).outside(&fits.units, peak);
+    let from_trace = from_trace(n);
     let from = if from_trace.is_some() { From::Trace } else { From::Model };
     let results = match from_trace {
         Some(mut results) => {
@@ -199,7 +201,8 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
     Warning::add(&mut fit.warnings, records.iter().flat_map(|other| other.pulses.warnings.clone()));
     fit.warnings.extend(gap);
     let signal = fit.best().signal;
-    if let Some((delay, doubts)) = delay::measure(records, &shots, asked, &signal, results.start, &fit.triggers)? {
+    let starts = [results.start, early.triggers[0]];
+    if let Some((delay, doubts)) = delay::measure(records, &shots, asked, &signal, starts, &fit.triggers)? {
         fit.delay = Some(delay);
         fit.warnings.extend(doubts);
     }

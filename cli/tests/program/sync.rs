@@ -149,10 +149,10 @@ fn the_spread_is_what_was_put_in() {
 fn a_shot_of_its_own_is_not_shifted_by_its_misfit() {
     let folder = Folder::new("misfit");
     let record = Record { hertz: 1e6, ..Record::new(1, 5) };
-    // Steep at first, and dimmed for a while in the middle.
+    // With a rest on the ramp, and dimmed for a while in the middle.
     let row = |[t, light, sync]: [f64; 3]| {
         let x = 0.5 * (light - 0.1);
-        let open = if x < 0.1 { 6.0 * x } else { 0.6 + 0.4 * (x - 0.1) / 0.9 };
+        let open = (1.5 * x).min(0.45).max(0.45 + 0.55 * (x - 0.7) / 0.3);
         let part = if (0.0135..0.015).contains(&t) { 0.7 } else { 1.0 };
         [t, 0.1 + 2.0 * part * open, sync]
     };
@@ -161,6 +161,14 @@ fn a_shot_of_its_own_is_not_shifted_by_its_misfit() {
     assert_eq!(json["triggers_from"], "trace", "{json}");
     let edge = number(&json, "opens_s") - number(&json, "delay_s");
     assert!((edge - 0.008).abs() < 2e-6, "{edge}");
+    // Nor does it count as a spread of files, of which each fit misses the ramp in its own way.
+    let all = Record::new(3, 0);
+    for (k, delay) in all.delays.iter().enumerate() {
+        let shot = Record { delays: vec![*delay], seed: k as u64, ..Record::new(1, 0) };
+        folder.write(&format!("{k}.csv"), shot.rewritten(row));
+    }
+    let json = folder.json("0.csv 1.csv 2.csv --sync CH2 --nominal 5ms,5ms,5ms");
+    assert!((number(&json[0], "delay_spread_s") - all.spread()).abs() < 3e-6, "{json}");
 }
 
 /// A contact bounces as it closes or as it opens, and the warning says for how long a firmware has to take no other
